@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crackle/core/vec2.hpp"
+
+namespace crackle {
+
+/// Everything a case file says, defaults filled in, in SI units. One struct a table of the file;
+/// the member names are the file's keys. Angles are in radians here, degrees or radians in the
+/// file ("38 deg", "0.66 rad"; a bare number is radians, the SI unit).
+struct Case {
+  std::string title;
+  std::string file;  ///< path the case was read from
+
+  struct Domain {
+    double width = 0.0;   ///< extent in x [m], centred on the origin
+    double height = 0.0;  ///< extent in y [m]
+  } domain;
+
+  struct Wellbore {
+    double diameter = 0.0;  ///< [m]; 0: no wellbore
+    int segments = 0;       ///< edges round the wellbore; 0: from mesh.size_fine
+  } wellbore;
+
+  struct Mesh {
+    std::string generator = "cgal";  ///< "cgal" or "gmsh"
+    double size_fine = 0.0;          ///< [m]
+    double fine_radius = 0.0;        ///< [m]
+    double size_coarse = 0.0;        ///< [m]
+    std::uint64_t seed = 1;
+    std::string file;                ///< a .msh file instead of a generator; relative to the case file
+  } mesh;
+
+  struct Rock {
+    double density = 0.0;                ///< [kg/m3]
+    double young_modulus = 0.0;          ///< [Pa]
+    double poisson_ratio = 0.0;          ///< [-]
+    double tensile_strength = 0.0;       ///< [Pa]
+    double cohesion = 0.0;               ///< [Pa]
+    double friction_angle = 0.0;         ///< internal friction angle [rad]
+    double fracture_energy_mode1 = 0.0;  ///< [J/m2]
+    double fracture_energy_mode2 = 0.0;  ///< [J/m2]
+  } rock;
+
+  struct Cohesive {
+    std::string law = "evans_marathe";   ///< a registered law
+    std::string calibration = "exact";   ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
+    std::string insertion = "all";       ///< where cohesive elements are: "all" edges
+    double penalty = 0.0;                ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
+  } cohesive;
+
+  struct Contact {
+    double normal_penalty = 0.0;      ///< [Pa]; 0: as the cohesive penalty
+    double tangential_penalty = 0.0;  ///< [Pa]; 0: as the cohesive penalty
+    double friction_angle = 0.0;      ///< residual friction of broken faces [rad]; default: the rock's
+  } contact;
+
+  struct Damping {
+    std::optional<double> viscosity;  ///< viscous stress over strain rate [Pa s]
+    std::optional<double> ratio;      ///< of the critical viscosity 2 h sqrt(E rho) [-]; default 0.1
+  } damping;
+
+  struct Boundary {
+    std::string outer = "fixed";  ///< "fixed" or "absorbing"
+  } boundary;
+
+  Sym2 stress;  ///< far-field effective stress [Pa], tension positive: [stress] xx, yy, xy
+
+  struct PumpStage {
+    double from = 0.0;  ///< [s]
+    double to = 0.0;    ///< [s]
+    double rate = 0.0;  ///< injection rate per metre of thickness [m2/s]
+  };
+  struct Fluid {
+    double bulk_modulus = 2.2e9;    ///< [Pa]
+    double density = 1000.0;        ///< at initial pressure [kg/m3]
+    double initial_pressure = 0.0;  ///< [Pa]
+    std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken"
+    std::vector<PumpStage> pump;    ///< sorted by time, not overlapping
+  } fluid;
+
+  struct Run {
+    double end_time = 0.0;   ///< [s]
+    double time_step = 0.0;  ///< [s]; 0: "auto"
+    double safety = 0.8;     ///< fraction of the stable time step taken by "auto" [-]
+  } run;
+
+  /// Where the local coordinates lie on Earth, for the seismic catalog. x points east; y points
+  /// north and the section is horizontal at `depth`.
+  struct Seismic {
+    double longitude = 0.0;  ///< of the origin [degree]
+    double latitude = 0.0;   ///< of the origin [degree]
+    double depth = 0.0;      ///< of the section [m], positive down
+    std::string epoch = "2000-01-01T00:00:00Z";  ///< of simulated time zero, ISO 8601 UTC
+    double thickness = 1.0;  ///< out of plane, turns J/m into J for magnitudes [m]
+  } seismic;
+
+  struct Output {
+    double fields_every = 0.0;        ///< simulated time between field frames [s]; 0: end_time / 20
+    std::vector<std::string> fields;  ///< names of fields written; empty: the default set
+    double history_every = 0.0;       ///< [s]; 0: end_time / 1000
+  } output;
+};
+
+/// Reads and checks a case file (with its includes). @param overrides "table.key=value" strings, as
+/// given to --set, applied over the file before checking.
+/// @throws CaseError naming file, line and column, what is wrong and what to write instead.
+Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same from a text, for tests; `name` stands for the file in messages.
+Case parse_case(const std::string& text, const std::string& name,
+                const std::vector<std::string>& overrides = {});
+
+/// The case as a TOML text in SI units that read_case() reads back to the same values
+/// (resolved.toml), with the version of crackle as a comment on top.
+std::string resolved_toml(const Case& scene);
+
+/// One key of a case file, for `crackle describe` and the README's table.
+struct CaseKey {
+  std::string table;
+  std::string key;
+  std::string unit;           ///< SI unit, empty for text and counts
+  std::string default_value;  ///< as text; empty: required
+  std::string meaning;
+};
+
+/// Every key a case file may hold, in order.
+std::vector<CaseKey> case_keys();
+
+}  // namespace crackle

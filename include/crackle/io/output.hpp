@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crackle/core/errors.hpp"
+#include "crackle/core/vec2.hpp"
+#include "crackle/io/case.hpp"
+#include "crackle/seismic/event.hpp"
+
+namespace crackle {
+
+/// One row of history.csv; the column names there are these with their units.
+struct HistoryRow {
+  double time = 0.0;             ///< [s]
+  double time_step = 0.0;        ///< [s]
+  double pressure = 0.0;         ///< in the wellbore [Pa]
+  double injection_rate = 0.0;   ///< [m2/s]
+  double injected = 0.0;         ///< volume at reference density [m2]
+  double cavity_volume = 0.0;    ///< [m2]
+  double wetted_length = 0.0;    ///< of wetted fractures, one side [m]
+  std::int64_t broken_tensile = 0, broken_shear = 0, broken_mixed = 0;
+  double energy_kinetic = 0.0, energy_strain = 0.0, energy_cohesive = 0.0, energy_fracture = 0.0,
+         energy_friction = 0.0, energy_viscous = 0.0, energy_fluid = 0.0;  ///< [J/m]
+  double work_external = 0.0;    ///< [J/m]
+  double energy_residual = 0.0;  ///< [-]
+};
+
+/// A named value per triangle or per fracture segment; components = 1, 2 or 3 (xx, yy, xy).
+struct Field {
+  std::string name;  ///< with its unit, e.g. "stress_Pa"
+  int components = 1;
+  std::vector<double> values;
+};
+
+/// What one frame of fields/*.vtu shows: every triangle with its own three points, so that
+/// fractures are seen as gaps.
+struct FieldFrame {
+  double time = 0.0;                             ///< [s]
+  std::vector<Vec2> points;                      ///< reference position + displacement [m]
+  std::vector<std::array<Index, 3>> triangles;   ///< indices into points
+  std::vector<Field> point_fields;               ///< e.g. displacement_m, velocity_m_s
+  std::vector<Field> cell_fields;                ///< e.g. stress_Pa
+};
+
+/// What one frame of fractures/*.vtu shows: yielding and broken cohesive elements as lines.
+struct FractureFrame {
+  double time = 0.0;                            ///< [s]
+  std::vector<Vec2> points;
+  std::vector<std::array<Index, 2>> lines;
+  std::vector<Field> cell_fields;               ///< opening_m, slip_m, damage, mode, pressure_Pa
+};
+
+/// Values of summary.json.
+struct RunSummary {
+  double breakdown_pressure = 0.0;    ///< largest wellbore pressure [Pa]
+  double breakdown_time = 0.0;        ///< [s]
+  double propagation_pressure = 0.0;  ///< mean over the last tenth of the run [Pa]
+  double broken_length = 0.0;         ///< [m]
+  double extent_x = 0.0;              ///< of the broken elements [m]
+  double extent_y = 0.0;              ///< [m]
+  double energy_residual_max = 0.0;   ///< [-]
+  std::int64_t triangles = 0;
+  std::int64_t steps = 0;
+  double wall = 0.0;                  ///< [s]
+  double core_ns_per_triangle_step = 0.0;
+  std::int64_t events = 0;
+  double magnitude_min = 0.0;         ///< NaN without events (written as null)
+  double magnitude_max = 0.0;
+  std::string exit = "done";          ///< "done", "interrupted" or the reason of a numerical stop
+};
+
+/// The folder of one run: every file that crackle writes goes through here. Files are written
+/// beside and renamed, or appended and flushed, so that what is there can always be read.
+class RunFolder {
+ public:
+  /// Creates the folder (and parents). @throws CaseError when it cannot be written or already
+  /// holds a run; nothing there is touched then.
+  explicit RunFolder(const std::string& path);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+  void write_resolved(const Case& scene);
+  void append_history(const HistoryRow& row);
+  /// Appends to events.csv. @throws CaseError on a full disk, as every other write here.
+  void append_event(const SeismicEvent& event);
+  /// Writes fields/fields_NNNNNN.vtu and fractures/fractures_NNNNNN.vtu and renews fields.pvd and
+  /// fractures.pvd.
+  void write_frame(const FieldFrame& fields, const FractureFrame& fractures);
+  /// events.xml, QuakeML 1.2.
+  void write_quakeml(const std::vector<SeismicEvent>& events, const Case& scene);
+  void write_summary(const RunSummary& summary);
+  /// Adds a line with the wall-clock time to run.log.
+  void log(const std::string& line);
+
+ private:
+  std::string path_;
+  std::FILE* history_ = nullptr;
+  std::FILE* events_ = nullptr;
+  std::FILE* log_ = nullptr;
+  int frames_ = 0;
+  std::vector<double> frame_times_;
+};
+
+/// Writes an unstructured grid of triangles to a .vtu file (`crackle mesh -o FILE.vtu` and frames).
+void write_vtu(const std::string& path, const FieldFrame& frame);
+/// Writes lines to a .vtu file.
+void write_vtu(const std::string& path, const FractureFrame& frame);
+
+/// Events of a finished run, from DIR/events.csv. @throws CaseError
+std::vector<SeismicEvent> read_events_csv(const std::string& path);
+/// The catalog in a format: "csv", "quakeml" (1.2) or "zmap" (10 tab-separated columns: longitude,
+/// latitude, decimal year, month, day, magnitude, depth [km], hour, minute, second).
+std::string catalog_text(const std::vector<SeismicEvent>& events, const Case& scene,
+                         const std::string& format);
+
+}  // namespace crackle
