@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace crackle {
+
+/// Number of letters to insert, delete, replace or swap with a neighbour to make `b` of `a`
+/// (Damerau 1964, restricted: optimal string alignment), case ignored.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate with the smallest edit distance to `word`, the first of equals; empty if there
+/// are none. For messages on a misspelt key or law.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace crackle

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/core/nearest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+namespace crackle {
+namespace {
+
+TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {
+  EXPECT_EQ(edit_distance("cohesion", "cohesion"), 0U);
+  EXPECT_EQ(edit_distance("cohesion", "cohesin"), 1U);
+  EXPECT_EQ(edit_distance("cohesin", "cohesion"), 1U);
+  EXPECT_EQ(edit_distance("density", "densety"), 1U);
+  EXPECT_EQ(edit_distance("width", "widht"), 1U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+  EXPECT_EQ(edit_distance("", "mesh"), 4U);
+  EXPECT_EQ(edit_distance("Width", "width"), 0U);
+}
+
+TEST(EditDistance, CutsLongWords) { EXPECT_EQ(edit_distance(std::string(1 << 20, 'x'), "x"), 63U); }
+
+TEST(Nearest, TakesTheClosestAndTheFirstOfEquals) {
+  const std::array<std::string_view, 3> names = {"yy", "xx", "xy"};
+  EXPECT_EQ(nearest("xz", names), "xx");
+  EXPECT_EQ(nearest("x_y", names), "xy");
+  EXPECT_EQ(nearest("word", {}), "");
+}
+
+}  // namespace
+}  // namespace crackle
