@@ -3,8 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
-#include <span>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,7 +52,7 @@ struct FractureFrame {
   double time = 0.0;                            ///< [s]
   std::vector<Vec2> points;
   std::vector<std::array<Index, 2>> lines;
-  std::vector<Field> cell_fields;               ///< opening_m, slip_m, damage, mode, pressure_Pa
+  std::vector<Field> cell_fields;               ///< opening_m, slip_m, damage, mode, pressure_Pa, broken
 };
 
 /// Values of summary.json.
@@ -75,8 +74,14 @@ struct RunSummary {
   std::string exit = "done";          ///< "done", "interrupted" or the reason of a numerical stop
 };
 
+class AppendedFile;
+
 /// The folder of one run: every file that crackle writes goes through here. Files are written
 /// beside and renamed, or appended and flushed, so that what is there can always be read.
+///
+/// The constructor only makes the folder and run.log; a folder counts as holding a run once
+/// anything else is written. A case that fails before its first result (in the mesher, say) so
+/// leaves a folder that can be used again. Not thread-safe.
 class RunFolder {
  public:
   /// Creates the folder (and parents). @throws CaseError when it cannot be written or already
@@ -87,37 +92,49 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::string& path() const { return path_; }
+  /// resolved.toml. Like every other write here: @throws CaseError with the file and the reason
+  /// (disk full, no permission).
   void write_resolved(const Case& scene);
+  /// Appends to history.csv.
   void append_history(const HistoryRow& row);
-  /// Appends to events.csv. @throws CaseError on a full disk, as every other write here.
+  /// Appends to events.csv.
   void append_event(const SeismicEvent& event);
-  /// Writes fields/fields_NNNNNN.vtu and fractures/fractures_NNNNNN.vtu and renews fields.pvd and
-  /// fractures.pvd.
+  /// Writes fields/fields_NNNNNN.vtu and fractures/fractures_NNNNNN.vtu, counted from 0, and renews
+  /// fields.pvd and fractures.pvd.
   void write_frame(const FieldFrame& fields, const FractureFrame& fractures);
   /// events.xml, QuakeML 1.2.
   void write_quakeml(const std::vector<SeismicEvent>& events, const Case& scene);
   void write_summary(const RunSummary& summary);
-  /// Adds a line with the wall-clock time to run.log.
+  /// Adds a line with the wall-clock time (UTC) to run.log.
   void log(const std::string& line);
 
  private:
+  std::string file(const std::string& name) const;
+  /// Opens history.csv and events.csv, which must not be there yet.
+  void start();
+
   std::string path_;
-  std::FILE* history_ = nullptr;
-  std::FILE* events_ = nullptr;
-  std::FILE* log_ = nullptr;
-  int frames_ = 0;
-  std::vector<double> frame_times_;
+  std::unique_ptr<AppendedFile> history_;
+  std::unique_ptr<AppendedFile> events_;
+  std::unique_ptr<AppendedFile> log_;
+  std::vector<double> frame_times_;  ///< [s]
 };
 
 /// Writes an unstructured grid of triangles to a .vtu file (`crackle mesh -o FILE.vtu` and frames).
+/// A field with 2 components becomes a vector with z = 0, so that ParaView shows it as one.
+/// @throws CaseError when the file cannot be written, std::invalid_argument when a field has not one
+/// value a point or cell.
 void write_vtu(const std::string& path, const FieldFrame& frame);
-/// Writes lines to a .vtu file.
+/// Writes lines to a .vtu file. Without any line it holds one of no length at the origin with every
+/// value zero, because meshio cannot read a grid without cells.
 void write_vtu(const std::string& path, const FractureFrame& frame);
 
-/// Events of a finished run, from DIR/events.csv. @throws CaseError
+/// Events of a finished run, from its folder or from the path of an events.csv. @throws CaseError
+/// naming file and line when something there is not a row of that file
 std::vector<SeismicEvent> read_events_csv(const std::string& path);
 /// The catalog in a format: "csv", "quakeml" (1.2) or "zmap" (10 tab-separated columns: longitude,
 /// latitude, decimal year, month, day, magnitude, depth [km], hour, minute, second).
+/// @throws CaseError on another format, or on an epoch that is not a time
 std::string catalog_text(const std::vector<SeismicEvent>& events, const Case& scene,
                          const std::string& format);
 

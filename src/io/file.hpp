@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files whose every write is checked. Private to io.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace crackle {
+
+/// @throws CaseError "<path>: cannot <what>: <reason of errno_value>" with advice on a full disk
+[[noreturn]] void throw_file_error(const std::string& path, const std::string& what, int errno_value);
+
+/// Writes the whole text to "<path>.tmp" and renames it to path: whoever reads path sees the old
+/// file or the new one, never a part. @throws CaseError; "<path>.tmp" is removed then
+void write_whole_file(const std::string& path, std::string_view text);
+
+/// Renames "<path>.tmp" to path. @throws CaseError
+void rename_finished(const std::string& path);
+
+/// The content of a file. @throws CaseError
+std::string read_whole_file(const std::string& path);
+
+/// A text file that grows; each append reaches the operating system before it returns.
+class AppendedFile {
+ public:
+  enum class Mode {
+    create,  ///< the file must not be there yet
+    extend,  ///< what is there stays
+  };
+  /// @throws CaseError
+  AppendedFile(const std::string& path, Mode mode);
+  ~AppendedFile();
+  AppendedFile(const AppendedFile&) = delete;
+  AppendedFile& operator=(const AppendedFile&) = delete;
+
+  /// @throws CaseError
+  void append(std::string_view text);
+
+ private:
+  std::string path_;
+  std::FILE* stream_;
+};
+
+}  // namespace crackle

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "crackle/io/output.hpp"
+
+namespace crackle {
+
+/// First line of history.csv, with its line end.
+std::string history_header();
+/// A row, with its line end; numbers in the shortest form that reads back to the same value.
+std::string history_line(const HistoryRow& row);
+
+}  // namespace crackle
