@@ -29,10 +29,10 @@ enum class EdgeKind : std::int8_t {
 /// normal right_normal(v1 - v0) points from face a to face b (or out of the body).
 struct Edge {
   std::array<Index, 2> vertex{-1, -1};
-  std::array<Index, 2> triangle{-1, -1};  ///< triangle[1] = -1 on a boundary
-  std::array<std::int8_t, 2> side{-1, -1};///< which side of each triangle this edge is
+  std::array<Index, 2> triangle{-1, -1};    ///< triangle[1] = -1 on a boundary
+  std::array<std::int8_t, 2> side{-1, -1};  ///< which side of each triangle this edge is
   EdgeKind kind = EdgeKind::interior;
-  Index joint = -1;                       ///< pre-existing joint the edge belongs to; -1: intact rock
+  Index joint = -1;  ///< pre-existing joint the edge belongs to; -1: intact rock
 };
 
 /// A conforming triangulation of the domain, in metres, with its edges.
@@ -98,12 +98,13 @@ Mesh excavate(const Mesh& mesh);
 
 /// Quality of a mesh, as `crackle check` reports it.
 struct MeshQuality {
-  double min_angle_deg = 0.0;      ///< smallest angle of all triangles
+  double min_angle_deg = 0.0;  ///< smallest angle of all triangles
   Index min_angle_triangle = -1;
-  double min_edge = 0.0;           ///< shortest edge [m]
-  double max_edge = 0.0;           ///< longest edge [m]
-  double mean_size_ratio = 0.0;    ///< mean of (edge length / target size at its midpoint); 0 without a recipe
+  double min_edge = 0.0;         ///< shortest edge [m]
+  double max_edge = 0.0;         ///< longest edge [m]
+  double mean_size_ratio = 0.0;  ///< mean of (edge length / target size at its midpoint); 0 without a recipe
   double max_size_ratio = 0.0;
+  Index max_size_ratio_edge = -1;
 };
 
 /// @param recipe target sizes to compare with; nullptr: none (a mesh from a file)
@@ -120,5 +121,20 @@ Mesh read_gmsh(const std::string& path);
 
 /// Writes a gmsh file (version 4.1) that read_gmsh() reads back to the same mesh. @throws MeshError
 void write_gmsh(const Mesh& mesh, const std::string& path);
+
+/// How structured_rectangle() cuts its cells.
+enum class MeshPattern {
+  right,         ///< two triangles a cell, all diagonals from lower left to upper right
+  cross,         ///< four triangles a cell, round its centre
+  shifted_rows,  ///< every other row of vertices shifted by half a cell: equilateral if step.y = 0.866 step.x
+};
+
+/// A rectangle [m] of nx x ny cells, for patch tests and benchmarks. @throws MeshError
+Mesh structured_rectangle(Vec2 lower, Vec2 upper, int nx, int ny, MeshPattern pattern);
+
+/// The mesh with every vertex off its boundary moved at random by at most `fraction` of its shortest
+/// edge; below 0.3 no triangle of a structured mesh turns over. Kinds and joints of edges are kept.
+/// @throws MeshError when triangles overlap
+Mesh jittered(const Mesh& mesh, double fraction, std::uint64_t seed);
 
 }  // namespace crackle
