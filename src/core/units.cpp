@@ -106,11 +106,22 @@ double decimal(double factor) {
   return std::abs(rounded - factor) <= 4.5e-16 * std::abs(factor) ? rounded : factor;
 }
 
-/// value x factor; by a division where that is the exact operation (3 mm = 3 / 1000 m).
+/// value x factor; for a power of ten by moving the decimal point, so that 1.68 ms is the double 1.68e-3.
 double scale(double value, double factor) {
-  const double divisor = std::round(1.0 / factor);
-  const bool divides = divisor > 1.0 && divisor < 1e15 && std::abs(divisor * factor - 1.0) < 4.5e-16;
-  return divides ? value / divisor : value * factor;
+  const double power = std::round(std::log10(factor));
+  if (std::abs(power) > 60.0 || factor != decimal(std::pow(10.0, power))) return value * factor;
+  char text[64];
+  const auto written = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific);
+  const std::string_view digits(text, static_cast<std::size_t>(written.ptr - text));
+  const std::size_t e = digits.find('e');
+  const std::string_view sign_and_exponent = digits.substr(e + 1);
+  int exponent = 0;
+  std::from_chars(sign_and_exponent.data() + (sign_and_exponent[0] == '+'), digits.data() + digits.size(),
+                  exponent);
+  const std::string moved = fmt::format("{}e{}", digits.substr(0, e), exponent + static_cast<int>(power));
+  double scaled = value * factor;
+  std::from_chars(moved.data(), moved.data() + moved.size(), scaled);  // out of range: keeps the product
+  return scaled;
 }
 
 }  // namespace

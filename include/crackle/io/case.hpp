@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ struct Case {
     double fine_radius = 0.0;        ///< [m]
     double size_coarse = 0.0;        ///< [m]
     std::uint64_t seed = 1;
-    std::string file;                ///< a .msh file instead of a generator; relative to the case file
+    std::string file;                ///< a .msh file instead of a generator; made absolute when read
   } mesh;
 
   struct Rock {
@@ -81,7 +82,7 @@ struct Case {
     double density = 1000.0;        ///< at initial pressure [kg/m3]
     double initial_pressure = 0.0;  ///< [Pa]
     std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken"
-    std::vector<PumpStage> pump;    ///< sorted by time, not overlapping
+    std::vector<PumpStage> pump;    ///< sorted by time, not overlapping; a stage without end ends with the run
   } fluid;
 
   struct Run {
@@ -107,14 +108,23 @@ struct Case {
   } output;
 };
 
-/// Reads and checks a case file (with its includes). @param overrides "table.key=value" strings, as
-/// given to --set, applied over the file before checking.
+/// Names that a key takes beside its built-in ones, by "table.key": {"cohesive.law", {"my_law"}} for
+/// laws that are registered elsewhere.
+struct CaseNames {
+  std::map<std::string, std::vector<std::string>> more;
+};
+
+/// Reads and checks a case file (with its includes). Defaults that follow from other keys are filled
+/// in, so that no 0 stands for "as something else" (but wellbore.segments and run.time_step).
+/// @param overrides "table.key=value" strings, as given to --set, applied over the file before
+/// checking; "fluid.pump.0.rate=30 l/s" reaches into a list of tables.
 /// @throws CaseError naming file, line and column, what is wrong and what to write instead.
-Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
+Case read_case(const std::string& path, const std::vector<std::string>& overrides = {},
+               const CaseNames& names = {});
 
 /// The same from a text, for tests; `name` stands for the file in messages.
 Case parse_case(const std::string& text, const std::string& name,
-                const std::vector<std::string>& overrides = {});
+                const std::vector<std::string>& overrides = {}, const CaseNames& names = {});
 
 /// The case as a TOML text in SI units that read_case() reads back to the same values
 /// (resolved.toml), with the version of crackle as a comment on top.

@@ -46,6 +46,9 @@ TEST(Units, KeepsDecimalNumbersExact) {
   EXPECT_EQ(units.convert("3 mm", "m"), 0.003);
   EXPECT_EQ(units.convert("6 mm", "m"), 0.006);
   EXPECT_EQ(units.convert("7 us", "s"), 7e-6);
+  EXPECT_EQ(units.convert("1.68 ms", "s"), 1.68e-3);
+  EXPECT_EQ(units.convert("-4.85 MPa", "Pa"), -4.85e6);
+  EXPECT_EQ(units.convert("0 mm", "m"), 0.0);
   EXPECT_EQ(units.convert("1.45 GPa", "Pa"), 1.45e9);
 }
 

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What keys of a case say of one another, and the defaults that follow from other keys.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <vector>
+
+#include "case_read.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_wellbore(const Case& scene, const GivenKeys& given) {
+  const double diameter = scene.wellbore.diameter;
+  const bool in_domain = scene.domain.width > 0.0 && scene.domain.height > 0.0;
+  if (in_domain && diameter >= std::min(scene.domain.width, scene.domain.height)) {
+    fail(given.place("wellbore.diameter"),
+         fmt::format("wellbore.diameter = {} m does not fit the domain of {} m x {} m", diameter,
+                     scene.domain.width, scene.domain.height));
+  }
+  if (diameter <= 0.0 && !scene.fluid.pump.empty() && scene.mesh.file.empty()) {
+    fail(given.place("wellbore.diameter"),
+         "wellbore.diameter = 0 leaves the pump without a wellbore to inject into");
+  }
+  if (scene.wellbore.segments > 0 && scene.wellbore.segments < 3) {
+    fail(given.place("wellbore.segments"),
+         fmt::format("wellbore.segments = {} make no polygon: write 3 or more, or 0",
+                     scene.wellbore.segments));
+  }
+}
+
+void check_mesh(const Case& scene, const GivenKeys& given) {
+  const Case::Mesh& mesh = scene.mesh;
+  const double radius = scene.wellbore.diameter / 2.0;
+  if (!mesh.file.empty()) {
+    std::error_code error;
+    if (!fs::is_regular_file(mesh.file, error)) {
+      fail(given.place("mesh.file"), fmt::format("mesh.file: there is no file {}", mesh.file));
+    }
+    return;
+  }
+  if (mesh.size_fine > mesh.size_coarse) {
+    fail(given.place("mesh.size_fine"), fmt::format("mesh.size_fine = {} m is above mesh.size_coarse = {} m",
+                                                    mesh.size_fine, mesh.size_coarse));
+  }
+  if (mesh.size_fine > std::max(scene.domain.width, scene.domain.height)) {
+    fail(given.place("mesh.size_fine"),
+         fmt::format("mesh.size_fine = {} m is above the size of the domain", mesh.size_fine));
+  }
+  if (radius > 0.0 && scene.wellbore.segments == 0 && mesh.size_fine > radius) {
+    fail(given.place("mesh.size_fine"), fmt::format("mesh.size_fine = {} m is above the wellbore's radius of "
+                                                    "{} m: the wellbore would have fewer than "
+                                                    "six edges",
+                                                    mesh.size_fine, radius));
+  }
+  if (mesh.fine_radius > 0.0 && mesh.fine_radius < radius) {
+    fail(given.place("mesh.fine_radius"),
+         fmt::format("mesh.fine_radius = {} m lies inside the wellbore, whose radius is {} m",
+                     mesh.fine_radius, radius));
+  }
+}
+
+/// A path in a case file is relative to that file, one given to --set to the working folder.
+void resolve_mesh_file(Case& scene, const GivenKeys& given) {
+  if (scene.mesh.file.empty()) return;
+  const Place place = given.place("mesh.file");
+  const fs::path folder = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
+  std::error_code error;
+  const fs::path path = fs::absolute(folder / scene.mesh.file, error);
+  if (!error) scene.mesh.file = path.lexically_normal().string();
+}
+
+void finish_pump(Case& scene, const GivenKeys& given) {
+  std::vector<Case::PumpStage>& pump = scene.fluid.pump;
+  const auto key = [](std::size_t row, std::string_view name) {
+    return fmt::format("fluid.pump.{}.{}", row, name);
+  };
+  for (std::size_t row = 0; row < pump.size(); ++row) {
+    const bool open = !given.has(key(row, "to"));
+    if (open) pump[row].to = scene.run.end_time;
+    if (pump[row].to <= pump[row].from) {
+      fail(given.place(key(row, open ? "from" : "to")),
+           fmt::format("the pump stage ends at {} s{}, not after its start at {} s", pump[row].to,
+                       open ? " (run.end_time)" : "", pump[row].from));
+    }
+  }
+  std::vector<std::size_t> order(pump.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return pump[row].from; });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Case::PumpStage& before = pump[order[i - 1]];
+    const Case::PumpStage& after = pump[order[i]];
+    if (after.from < before.to) {
+      fail(given.place(key(std::max(order[i], order[i - 1]), "from")),
+           fmt::format("pump stages overlap: one lasts from {} to {} s{}, another from {} s", before.from,
+                       before.to, given.has(key(order[i - 1], "to")) ? "" : " (run.end_time)", after.from));
+    }
+  }
+  std::ranges::stable_sort(pump, {}, &Case::PumpStage::from);
+}
+
+/// Two ways to say one thing: the later layer (including file over included file) wins.
+void finish_damping(Case::Damping& damping, const GivenKeys& given) {
+  if (damping.viscosity && damping.ratio) {
+    const Place viscosity = given.place("damping.viscosity");
+    const Place ratio = given.place("damping.ratio");
+    if (viscosity.layer == ratio.layer) {
+      fail(viscosity.line > ratio.line ? viscosity : ratio, "[damping] takes viscosity or ratio, not both");
+    }
+    (viscosity.layer > ratio.layer ? damping.ratio : damping.viscosity).reset();
+  }
+  if (!damping.viscosity && !damping.ratio) damping.ratio = 0.1;
+}
+
+void finish_run(Case& scene, const GivenKeys& given) {
+  if (scene.run.time_step > scene.run.end_time) {
+    fail(given.place("run.time_step"), fmt::format("run.time_step = {} s is above run.end_time = {} s",
+                                                   scene.run.time_step, scene.run.end_time));
+  }
+  if (scene.output.fields_every == 0.0) scene.output.fields_every = scene.run.end_time / 20.0;
+  if (scene.output.history_every == 0.0) scene.output.history_every = scene.run.end_time / 1000.0;
+}
+
+}  // namespace
+
+void finish_case(ReadCase& read) {
+  Case& scene = read.scene;
+  const GivenKeys& given = read.given;
+  check_wellbore(scene, given);
+  resolve_mesh_file(scene, given);
+  check_mesh(scene, given);
+  finish_run(scene, given);
+  finish_pump(scene, given);
+  finish_damping(scene.damping, given);
+  if (scene.cohesive.penalty == 0.0) scene.cohesive.penalty = 20.0 * scene.rock.young_modulus;
+  if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;
+  if (scene.contact.tangential_penalty == 0.0) scene.contact.tangential_penalty = scene.cohesive.penalty;
+  if (!given.has("contact.friction_angle")) scene.contact.friction_angle = scene.rock.friction_angle;
+}
+
+}  // namespace crackle

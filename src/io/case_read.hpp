@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a tree to a Case: each key by its line of the table in case_schema.cpp. Private to io.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "crackle/io/case.hpp"
+#include "toml_tree.hpp"
+
+namespace crackle {
+
+/// Where the keys of a case were given: "rock.density", "fluid.pump.0.rate", "fluid.pump".
+class GivenKeys {
+ public:
+  void add(const std::string& path, const Place& place) { places_[path] = place; }
+  void set_file(const std::string& file) { file_.file = file; }
+  bool has(const std::string& path) const { return places_.contains(path); }
+  /// Of the key; of the table it belongs to if the case leaves the key out; else the file alone.
+  Place place(std::string path) const;
+
+ private:
+  std::map<std::string, Place> places_;
+  Place file_;
+};
+
+/// A case as its file says it, each value in its range, and where it says so.
+struct ReadCase {
+  Case scene;
+  GivenKeys given;
+};
+
+/// @throws CaseError on an unknown or missing key, a wrong type, dimension or range
+ReadCase read_case_tree(const TomlNode& root, const std::string& file, const CaseNames& names);
+
+/// Refuses keys that contradict one another.
+/// Fills in the defaults that depend on other keys. @throws CaseError
+void finish_case(ReadCase& read);
+
+}  // namespace crackle

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "case_schema.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "case_slot.hpp"
+#include "crackle/core/errors.hpp"
+#include "utc_time.hpp"
+
+namespace crackle {
+namespace {
+
+const Quantity plain{"a plain number", {"1"}, "0.25"};
+const Quantity length{"a length", {"m"}, "\"3 mm\""};
+const Quantity duration{"a time", {"s"}, "\"1.2e-3 s\""};
+const Quantity density{"a density", {"kg/m3"}, "\"2700 kg/m3\""};
+const Quantity pressure{"a pressure", {"Pa"}, "\"35 MPa\""};
+const Quantity angle{"an angle", {"rad"}, "\"38 deg\""};
+const Quantity energy_per_area{"an energy per area", {"J/m2"}, "\"5 J/m2\""};
+const Quantity viscosity{"a viscosity", {"Pa s"}, "\"1e4 Pa s\""};
+/// In the plane a rate is per metre of thickness: "65 l/s" stands for 65 l/s a metre, as papers write it.
+const Quantity rate{
+    "an injection rate per metre of thickness", {"m2/s", "m3/s"}, "\"65 l/s\" or \"0.065 m2/s\""};
+const Quantity degrees{"an angle on Earth in degrees", {"degree"}, "8.5"};
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double right_angle = std::numbers::pi / 2.0;
+
+const Range any{.text = "finite"};
+const Range positive{.low = 0.0, .low_allowed = false, .text = "above 0"};
+const Range not_negative{.low = 0.0, .text = "0 or more"};
+const Range stiffness{
+    .low = 0.0, .low_allowed = false, .text = "above 0: a modulus of 0 or less is not stable"};
+const Range strength{.low = 0.0, .low_allowed = false, .text = "above 0: strengths are given without a sign"};
+const Range breaking{.low = 0.0, .low_allowed = false, .text = "above 0: breaking takes energy"};
+const Range poisson{-1.0, 0.5, false, false,
+                    "above -1 and below 0.5: beyond, straining would release energy"};
+const Range friction{0.0, right_angle, true, false, "from 0 to below 90 degrees"};
+const Range fraction{0.0, 1.0, false, true, "above 0 and at most 1"};
+const Range east{-180.0, 180.0, true, true, "from -180 to 180 degrees"};
+const Range north{-90.0, 90.0, true, true, "from -90 to 90 degrees"};
+const Range any_count{0.0, inf, true, true, "0 or more"};
+
+KeySpec number(std::string_view key, Slot slot, const Quantity& quantity, const Range& range, Need need,
+               std::string_view meaning, std::string_view fallback = {}, std::string_view zero_word = {}) {
+  return {.key = key,
+          .slot = slot,
+          .need = need,
+          .meaning = meaning,
+          .fallback = fallback,
+          .quantity = &quantity,
+          .range = range,
+          .zero_word = zero_word};
+}
+
+KeySpec count(std::string_view key, Slot slot, std::string_view meaning, std::string_view fallback = {}) {
+  return {.key = key, .slot = slot, .meaning = meaning, .fallback = fallback, .range = any_count};
+}
+
+KeySpec text(std::string_view key, Slot slot, std::string_view meaning, std::string_view fallback = {}) {
+  return {.key = key, .slot = slot, .meaning = meaning, .fallback = fallback};
+}
+
+KeySpec choice(std::string_view key, Slot slot, std::vector<std::string_view> choices,
+               std::string_view meaning) {
+  return {.key = key, .slot = slot, .meaning = meaning, .choices = std::move(choices)};
+}
+
+KeySpec moment(std::string_view key, Slot slot, std::string_view meaning) {
+  return {.key = key, .slot = slot, .meaning = meaning, .check = [](const std::string& iso) {
+            // the bound keeps a long text out of the recursion of std::regex
+            parse_utc(iso.size() < 48 ? iso : iso.substr(0, 48) + "...");
+          }};
+}
+
+using C = Case;
+
+std::vector<TableSpec> make_tables() {
+  // clang-format off
+  return {
+    {"", {
+      text("title", slot<&C::title>(), "what the case is", "none"),
+      text("include", {}, "a case file, or a list of them, whose keys hold unless given here", "none"),
+    }},
+    {"domain", {
+      number("width", slot<&C::domain, &C::Domain::width>(), length, positive, Need::without_mesh_file, "extent in x, centred on the origin"),
+      number("height", slot<&C::domain, &C::Domain::height>(), length, positive, Need::without_mesh_file, "extent in y, centred on the origin"),
+    }},
+    {"wellbore", {
+      number("diameter", slot<&C::wellbore, &C::Wellbore::diameter>(), length, not_negative, Need::with_pump, "of the wellbore at the origin; 0: no wellbore", "0, without a pump"),
+      count("segments", slot<&C::wellbore, &C::Wellbore::segments>(), "edges round the wellbore; 0: as many as mesh.size_fine asks for"),
+    }},
+    {"mesh", {
+      choice("generator", slot<&C::mesh, &C::Mesh::generator>(), {"cgal", "gmsh"}, "program that makes the triangles"),
+      number("size_fine", slot<&C::mesh, &C::Mesh::size_fine>(), length, positive, Need::without_mesh_file, "edge length within fine_radius"),
+      number("fine_radius", slot<&C::mesh, &C::Mesh::fine_radius>(), length, not_negative, Need::without_mesh_file, "radius of the fine part round the origin"),
+      number("size_coarse", slot<&C::mesh, &C::Mesh::size_coarse>(), length, positive, Need::without_mesh_file, "edge length at the outer boundary"),
+      count("seed", slot<&C::mesh, &C::Mesh::seed>(), "of the random numbers of the mesh"),
+      text("file", slot<&C::mesh, &C::Mesh::file>(), "a .msh file instead of a generator, relative to the file that names it", "none"),
+    }},
+    {"rock", {
+      number("density", slot<&C::rock, &C::Rock::density>(), density, positive, Need::always, "mass density of the rock"),
+      number("young_modulus", slot<&C::rock, &C::Rock::young_modulus>(), pressure, stiffness, Need::always, "Young's modulus"),
+      number("poisson_ratio", slot<&C::rock, &C::Rock::poisson_ratio>(), plain, poisson, Need::always, "Poisson's ratio"),
+      number("tensile_strength", slot<&C::rock, &C::Rock::tensile_strength>(), pressure, strength, Need::always, "tensile strength"),
+      number("cohesion", slot<&C::rock, &C::Rock::cohesion>(), pressure, strength, Need::always, "shear strength without normal stress"),
+      number("friction_angle", slot<&C::rock, &C::Rock::friction_angle>(), angle, friction, Need::always, "internal friction angle"),
+      number("fracture_energy_mode1", slot<&C::rock, &C::Rock::fracture_energy_mode1>(), energy_per_area, breaking, Need::always, "fracture energy in opening"),
+      number("fracture_energy_mode2", slot<&C::rock, &C::Rock::fracture_energy_mode2>(), energy_per_area, breaking, Need::always, "fracture energy in sliding"),
+    }},
+    {"cohesive", {
+      choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear"}, "softening law of the cohesive elements"),
+      choice("calibration", slot<&C::cohesive, &C::Cohesive::calibration>(), {"y_geo", "exact"}, "of the softening length: 3G/f, or so that G is dissipated"),
+      choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all"}, "which edges carry a cohesive element"),
+      number("penalty", slot<&C::cohesive, &C::Cohesive::penalty>(), pressure, not_negative, Need::never, "stiffness times edge length before softening", "20 rock.young_modulus"),
+    }},
+    {"contact", {
+      number("normal_penalty", slot<&C::contact, &C::Contact::normal_penalty>(), pressure, not_negative, Need::never, "against overlap of broken faces", "cohesive.penalty"),
+      number("tangential_penalty", slot<&C::contact, &C::Contact::tangential_penalty>(), pressure, not_negative, Need::never, "of broken faces that stick", "cohesive.penalty"),
+      number("friction_angle", slot<&C::contact, &C::Contact::friction_angle>(), angle, friction, Need::never, "residual friction angle of broken faces", "rock.friction_angle"),
+    }},
+    {"damping", {
+      number("viscosity", slot<&C::damping, &C::Damping::viscosity>(), viscosity, not_negative, Need::never, "viscous stress over strain rate, instead of ratio", "none"),
+      number("ratio", slot<&C::damping, &C::Damping::ratio>(), plain, not_negative, Need::never, "of the critical viscosity 2 h sqrt(E rho), instead of viscosity", "0.1"),
+    }},
+    {"boundary", {
+      choice("outer", slot<&C::boundary, &C::Boundary::outer>(), {"fixed", "absorbing"}, "what the outer boundary does"),
+    }},
+    {"stress", {
+      number("xx", slot<&C::stress, &Sym2::xx>(), pressure, any, Need::never, "far-field effective stress, tension positive"),
+      number("yy", slot<&C::stress, &Sym2::yy>(), pressure, any, Need::never, "far-field effective stress, tension positive"),
+      number("xy", slot<&C::stress, &Sym2::xy>(), pressure, any, Need::never, "far-field shear stress"),
+    }},
+    {"fluid", {
+      number("bulk_modulus", slot<&C::fluid, &C::Fluid::bulk_modulus>(), pressure, stiffness, Need::never, "bulk modulus of the fluid"),
+      number("density", slot<&C::fluid, &C::Fluid::density>(), density, positive, Need::never, "mass density of the fluid at the initial pressure"),
+      number("initial_pressure", slot<&C::fluid, &C::Fluid::initial_pressure>(), pressure, any, Need::never, "of the fluid before pumping"),
+      choice("wets", slot<&C::fluid, &C::Fluid::wets>(), {"broken"}, "which cohesive elements the fluid enters"),
+    }},
+    rows_of<&C::fluid, &C::Fluid::pump>("fluid.pump", {
+      number("from", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::from>(), duration, not_negative, Need::never, "start of the stage"),
+      number("to", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::to>(), duration, positive, Need::never, "end of the stage", "run.end_time"),
+      number("rate", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::rate>(), rate, not_negative, Need::always, "injection rate per metre of thickness"),
+    }),
+    {"run", {
+      number("end_time", slot<&C::run, &C::Run::end_time>(), duration, positive, Need::always, "simulated time at the end"),
+      number("time_step", slot<&C::run, &C::Run::time_step>(), duration, positive, Need::never, "\"auto\": the stable one times safety", {}, "auto"),
+      number("safety", slot<&C::run, &C::Run::safety>(), plain, fraction, Need::never, "share of the stable time step that \"auto\" takes"),
+    }},
+    {"seismic", {
+      number("thickness", slot<&C::seismic, &C::Seismic::thickness>(), length, positive, Need::never, "out of plane, for the energy of events"),
+    }},
+    {"seismic.reference", {
+      number("longitude", slot<&C::seismic, &C::Seismic::longitude>(), degrees, east, Need::never, "of the origin, east positive"),
+      number("latitude", slot<&C::seismic, &C::Seismic::latitude>(), degrees, north, Need::never, "of the origin, north positive"),
+      number("depth", slot<&C::seismic, &C::Seismic::depth>(), length, any, Need::never, "of the section, down positive"),
+      moment("epoch", slot<&C::seismic, &C::Seismic::epoch>(), "of simulated time zero, ISO 8601 in UTC"),
+    }},
+    {"output", {
+      number("fields_every", slot<&C::output, &C::Output::fields_every>(), duration, not_negative, Need::never, "simulated time between frames", "run.end_time / 20"),
+      text("fields", slot<&C::output, &C::Output::fields>(), "names of the fields to write; none: the default set", "none"),
+      number("history_every", slot<&C::output, &C::Output::history_every>(), duration, not_negative, Need::never, "simulated time between rows of history.csv", "run.end_time / 1000"),
+    }},
+  };
+  // clang-format on
+}
+
+}  // namespace
+
+const std::vector<TableSpec>& case_tables() {
+  static const std::vector<TableSpec> tables = make_tables();
+  return tables;
+}
+
+const TableSpec* find_table(std::string_view name) {
+  const auto at = std::ranges::find(case_tables(), name, &TableSpec::name);
+  return at == case_tables().end() ? nullptr : &*at;
+}
+
+const KeySpec* find_key(const TableSpec& table, std::string_view key) {
+  const auto at = std::ranges::find(table.keys, key, &KeySpec::key);
+  return at == table.keys.end() ? nullptr : &*at;
+}
+
+std::string join_path(std::string_view table, std::string_view key) {
+  return table.empty() ? std::string(key) : std::string(table) + "." + std::string(key);
+}
+
+bool is_needed(const KeySpec& key, const Case& scene) {
+  switch (key.need) {
+    case Need::never:
+      return false;
+    case Need::always:
+      return true;
+    case Need::without_mesh_file:
+      return scene.mesh.file.empty();
+    case Need::with_pump:
+      return scene.mesh.file.empty() && !scene.fluid.pump.empty();
+  }
+  return false;
+}
+
+}  // namespace crackle
