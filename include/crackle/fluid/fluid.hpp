@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "crackle/fluid/compressible.hpp"
+#include "crackle/fluid/pump.hpp"
+#include "crackle/state/state.hpp"
+
+namespace crackle {
+
+/// Fluid in the wellbore and in the broken elements connected to it, at one pressure per cavity
+/// (no flow resistance): AbuAisha et al. (2016), section 6.2.2.
+///
+/// The wetted boundary is a set of closed loops of corners. Between two wetted sides that meet at a
+/// vertex the loop goes straight from corner to corner, so that it is closed exactly; its area by
+/// Green's theorem (Eq. 6.5) is the cavity's volume and the gradient of that area, times the
+/// pressure, the force on the nodes: work and energy match to round-off.
+class Fluid {
+ public:
+  Fluid(const State& state, const CompressibleFluid& fluid, Pump pump);
+
+  const CompressibleFluid& properties() const { return fluid_; }
+  const Pump& pump() const { return pump_; }
+
+  /// Makes a cavity of mesh edges (boundary edges, or elements cut beforehand), filled with fluid at
+  /// the given pressure [Pa]. @return its number
+  Index fill(State& state, std::span<const Index> edges, double pressure);
+
+  /// Sets every cavity to the mass that fills its present volume at a pressure [Pa].
+  void refill(State& state, double pressure);
+
+  /// Lets the fluid into newly broken elements that touch a cavity, and on from there into broken
+  /// elements it had not reached. Cavities that come together become one; mass is conserved.
+  /// @param broken elements that broke in this step
+  void connect(State& state, std::span<const Index> broken);
+
+  /// One step, after the rock has moved without the fluid (v*, x*): pumps, finds the pressure that
+  /// fits the volume with it, and moves the wetted nodes on:
+  ///   V(x*) + Δt² s p = (m/ρ₀) exp(−(p − p₀)/K_f),  s = Σ |∂V/∂x_i|² / m_i
+  ///   v = v* + Δt p ∂V/∂x / m,  x = x* + Δt² p ∂V/∂x / m
+  /// Stable at the dry step for any K_f. @throws NumericalError on a cavity without volume.
+  void advance(State& state, double dt);
+
+  /// Rebuilds what is derived from the state (after a resume).
+  void rebuild(const State& state);
+
+  double energy(const State& state) const;         ///< [J/m]
+  double wetted_length(const State& state) const;  ///< of wetted fractures, one side [m]
+  /// Wall forces of the present pressures per corner [N/m], added to `forces` (for the static stage).
+  void add_corner_forces(const State& state, std::span<Vec2> forces) const;
+
+  /// Closed loops of one cavity, as corners in order round the fluid.
+  struct Loop {
+    Index cavity = -1;
+    std::vector<Index> corners;
+  };
+  const std::vector<Loop>& loops() const { return loops_; }
+  /// A fracture has come to the outer boundary: the fluid would leave the model there.
+  bool leaks() const { return leaks_; }
+
+ private:
+  struct Wet {  // a node on a loop with the gradient of its cavity's volume
+    Index node;
+    Index cavity;
+    Vec2 gradient;
+  };
+  void measure(const State& state);
+
+  CompressibleFluid fluid_;
+  Pump pump_;
+  std::vector<Index> edges_of_vertex_first_, edges_of_vertex_;  // vertex -> edges
+  std::vector<Index> element_of_edge_;
+  std::vector<Loop> loops_;
+  std::vector<std::vector<Index>> slots_;  // per loop: slot of each corner's node in wet_
+  std::vector<Wet> wet_;
+  std::vector<double> volume_, compliance_;  // per cavity: V(x), s
+  bool leaks_ = false;
+};
+
+}  // namespace crackle

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From broken elements to events. The energy of an event is the largest rise of the kinetic energy
+// of the element's four nodes between its first damage and its breaking (Lisjak et al. 2013);
+// the magnitude is Gutenberg and Richter's,
+//   M = (log10 E − 4.8) / 1.5,  E in J.
+// Energies of a 2D model are per metre; `thickness` [m] turns them into joules.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "crackle/seismic/event.hpp"
+#include "crackle/state/state.hpp"
+
+namespace crackle {
+
+/// Magnitude of an event that radiates an energy [J]. Energies below 1e-12 J count as that.
+double magnitude_of_energy(double energy);
+
+/// Mode of a failure from the share of its dissipation that was done in sliding: below a quarter
+/// tensile, above three quarters shear, mixed between.
+FailureMode failure_mode(double sliding_share);
+
+/// Events of the elements that broke in this step.
+/// @param thickness out of plane [m]
+std::vector<SeismicEvent> listen(const State& state, std::span<const Index> broken, double thickness);
+
+}  // namespace crackle

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Constant-strain triangles in the reference configuration, with finite rotation:
+//   F = I + ∂u/∂X,  E = ½(FᵀF − I),  S = C:E + S₀ + μᵥ Ė,  Ė = sym(Fᵀ ∂v/∂X),
+//   force on corner i:  f_i = −A₀ F S ∇N_i                          (total Lagrangian, per metre)
+// S₀ is the in-situ stress: a body in equilibrium with it needs no steps to settle.
+//
+// | parameter | unit | meaning                                                         |
+// |-----------|------|-----------------------------------------------------------------|
+// | viscosity | Pa s | stress per strain rate, per triangle; 0: none                   |
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "crackle/solid/stiffness.hpp"
+#include "crackle/state/state.hpp"
+
+namespace crackle {
+
+/// Rock between the fractures: reference geometry and material of every triangle.
+class Bulk {
+ public:
+  /// @param viscosity [Pa s], a constant for every triangle, and
+  /// @param damping_ratio of the critical viscosity 2 h √(E ρ) of each triangle; they add
+  struct Damping {
+    double viscosity = 0.0;
+    double ratio = 0.0;
+  };
+
+  Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sym2 in_situ_stress,
+       const Damping& damping);
+
+  bool viscous() const { return viscous_; }
+  double density() const { return density_; }
+  double area(Index triangle) const { return area_[static_cast<std::size_t>(triangle)]; }
+  double viscosity(Index triangle) const { return viscous_ ? viscosity_[static_cast<std::size_t>(triangle)] : 0.0; }
+  const PlaneStiffness& stiffness() const { return stiffness_; }
+
+  /// Forces [N/m] on the three corners of triangles [begin, end), in corner order, written (not
+  /// added) to forces[3 (t − begin) + i]. Writes state.strain_rate when viscous.
+  /// @return viscous dissipation of the last step times 1/time_step [W/m]
+  double corner_forces(State& state, Index begin, Index end, Vec2* forces) const;
+
+  /// Recoverable energy of all triangles [J/m], from the in-situ state: Σ A₀ (½ E:C:E + S₀:E).
+  double strain_energy(const State& state) const;
+
+  /// Cauchy stress in a triangle [Pa], without its viscous part.
+  Sym2 stress(const State& state, Index triangle) const;
+
+  /// Area of a triangle now over its reference area; at or below zero it is turned inside out.
+  double area_ratio(const State& state, Index triangle) const;
+
+  /// ∇N_i of the three corners in the reference state [1/m].
+  std::array<Vec2, 3> shape_gradients(Index triangle) const;
+
+ private:
+  PlaneStiffness stiffness_;
+  double density_;
+  bool viscous_ = false;
+  std::vector<std::array<double, 4>> inverse_shape_;  // rows ∇N_1, ∇N_2
+  std::vector<double> area_;
+  std::vector<Sym2> in_situ_;
+  std::vector<double> viscosity_;
+};
+
+}  // namespace crackle

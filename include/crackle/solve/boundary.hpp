@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Absorbing outer boundary (Lysmer and Kuhlemeyer 1969): traction −ρ c_p v_n normal to it and
+// −ρ c_s v_s along it, half to each end of an edge, on top of the constant traction that the
+// boundary bore in the geostatic stage. The dashpots are taken implicitly: they cannot limit the step.
+// Limits: exact for waves that come in straight, less good at slant; no stiffness, so the static
+// pressurisation drifts slowly outward.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "crackle/solid/stiffness.hpp"
+#include "crackle/state/state.hpp"
+
+namespace crackle {
+
+class AbsorbingBoundary {
+ public:
+  /// @param loads constant force on every corner of the outer boundary [N/m] (others are zero)
+  AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density, std::span<const Vec2> loads);
+
+  /// Kicks the boundary nodes with their constant load, and damps them; books what is radiated.
+  void apply(State& state, double dt) const;
+
+ private:
+  struct Entry {
+    Index node;
+    Vec2 normal;
+    double normal_dashpot;   // [kg/(s m)]
+    double tangent_dashpot;
+  };
+  struct Load {
+    Index node;
+    Vec2 force;
+  };
+  std::vector<Entry> entries_;
+  std::vector<Load> loads_;
+};
+
+}  // namespace crackle

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crackle/cohesive/cohesive.hpp"
+#include "crackle/fluid/fluid.hpp"
+#include "crackle/seismic/event.hpp"
+#include "crackle/solid/bulk.hpp"
+#include "crackle/solve/boundary.hpp"
+#include "crackle/solve/stopwatch.hpp"
+#include "crackle/solve/time_step.hpp"
+#include "crackle/state/state.hpp"
+
+namespace crackle {
+
+/// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive.
+struct Scene {
+  std::shared_ptr<const Mesh> mesh;  ///< excavated
+  PlaneStiffness stiffness;
+  double density = 0.0;              ///< [kg/m3]
+  Sym2 stress;                       ///< in situ, effective [Pa]
+  Bulk::Damping damping;
+  std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
+  CohesiveMaterial cohesive;
+  bool absorbing_boundary = false;   ///< outer boundary: absorbing, or fixed
+  std::vector<Index> cracks;         ///< mesh edges broken from the start
+  std::optional<CompressibleFluid> fluid;
+  double initial_pressure = 0.0;     ///< of the fluid [Pa]
+  Pump pump;
+  double thickness = 1.0;            ///< for magnitudes [m]
+};
+
+/// Energies per metre of thickness [J/m], at full steps; stored ones are changes since the start of
+/// the dynamics, dissipated ones sums of their own increments.
+struct Energies {
+  double kinetic = 0.0;
+  double strain = 0.0;    ///< rock, with the work against the in-situ stress
+  double cohesive = 0.0;  ///< recoverable energy of cohesive elements and closed faces
+  double fracture = 0.0;
+  double friction = 0.0;
+  double viscous = 0.0;
+  double fluid = 0.0;
+  double external = 0.0;  ///< work of the pump, less what an absorbing boundary took
+  double residual = 0.0;  ///< |stored + dissipated − external| over the largest of them so far
+};
+
+/// The dynamic loop: explicit steps of a scene from its geostatic equilibrium on.
+class Simulation {
+ public:
+  /// Sets the scene in equilibrium: in-situ stress, excavation, initial pressure; by a linear solve,
+  /// and by relaxation where something slips or breaks on the way. @throws NumericalError
+  explicit Simulation(Scene scene);
+
+  const State& state() const { return state_; }
+  State& state() { return state_; }
+  const Scene& scene() const { return scene_; }
+  const Bulk& bulk() const { return bulk_; }
+  const Cohesive* cohesive() const { return cohesive_ ? &*cohesive_ : nullptr; }
+  const Fluid* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
+  const StableStep& stable() const { return stable_; }
+  const Stopwatch& stopwatch() const { return stopwatch_; }
+  /// Elements that were beyond their strength in the geostatic stage; 0: it was elastic.
+  Index geostatic_slips() const { return geostatic_slips_; }
+  double wellbore_pressure() const;  ///< [Pa]; 0 without fluid
+
+  /// One explicit step of length dt [s].
+  void step(double dt) { advance(dt, nullptr); }
+  /// The same, with the energies at the time before the step. @throws NumericalError when anything
+  /// is not finite
+  Energies step_and_account(double dt);
+  /// Events of the last step.
+  const std::vector<SeismicEvent>& new_events() const { return new_events_; }
+
+  /// Largest unbalanced force over the largest corner force: how far from static equilibrium.
+  double imbalance();
+
+ private:
+  void settle();
+  void relax();
+  void advance(double dt, Energies* account);
+  void move_nodes(double dt);
+  Energies potential_energies() const;
+  [[noreturn]] void stop_not_finite() const;
+
+  Scene scene_;
+  State state_;
+  Bulk bulk_;
+  std::optional<Cohesive> cohesive_;
+  std::optional<Fluid> fluid_;
+  std::optional<AbsorbingBoundary> boundary_;
+  StableStep stable_;
+  Stopwatch stopwatch_;
+  std::vector<SeismicEvent> new_events_;
+  std::vector<Vec2> corner_force_;  // of corners that share their node with others
+  std::vector<Index> shared_nodes_;
+  std::vector<Vec2> velocity_before_;
+  Energies reference_;   // stored energies at the start
+  double scale_ = 0.0;   // largest energy so far
+  Index geostatic_slips_ = 0;
+};
+
+}  // namespace crackle

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "crackle/core/vec2.hpp"
+#include "crackle/mesh/mesh.hpp"
+
+namespace crackle {
+
+/// Life of a cohesive element.
+enum class CohesiveStatus : std::uint8_t {
+  intact = 0,    ///< on its elastic branch, evaluated by the fast loop
+  active = 1,    ///< near or past its strength: has a history, evaluated point by point
+  broken = 2,    ///< no cohesion left; faces still lie opposite one another and touch as a pair
+  released = 3,  ///< faces have moved past one another: general contact looks after them
+};
+
+/// One of the three integration points of an active cohesive element (ends 0 and 1, middle 2).
+struct CohesivePoint {
+  // history
+  double damage = 0.0;        ///< D, 0 intact ... 1 broken [-]
+  double opening_max = 0.0;   ///< largest opening since the point yields [m]
+  double slip_max = 0.0;      ///< largest |slip| since the point yields [m]
+  double plastic_slip = 0.0;  ///< of the friction spring [m]
+  // last evaluated state, for the work of the next step
+  double opening = 0.0;   ///< [m]
+  double slip = 0.0;      ///< [m]
+  double normal = 0.0;    ///< traction across, tension positive [Pa]
+  double shear = 0.0;     ///< cohesive part of the traction along [Pa]
+  double friction = 0.0;  ///< frictional part of the traction along [Pa]
+  double stored = 0.0;    ///< recoverable energy [J/m2]
+};
+
+/// History of one active or broken cohesive element.
+struct CohesiveHistory {
+  Index element = -1;
+  std::array<CohesivePoint, 3> point;
+  double fracture_energy = 0.0;  ///< dissipated by breaking [J/m]
+  double sliding_work = 0.0;     ///< part of fracture_energy done in shear [J/m]
+  double friction_energy = 0.0;  ///< dissipated by friction [J/m]
+  double yield_time = -1.0;      ///< first damage [s]; -1: none yet
+  double kinetic_at_yield = 0.0; ///< of its four nodes [J/m]
+  double kinetic_rise = 0.0;     ///< largest rise above kinetic_at_yield [J/m]
+  double break_time = -1.0;      ///< [s]; -1: not broken
+  std::int8_t mode = 0;          ///< FailureMode once broken
+};
+
+/// Forces per metre of thickness [N/m] that an element puts on face a at its two ends; face b
+/// gets the opposite.
+struct EndForces {
+  Vec2 end0, end1;
+};
+
+/// Cohesive elements as plain arrays, one entry an element.
+struct CohesiveElements {
+  std::vector<Index> edge;                      ///< of the mesh
+  std::vector<std::array<Index, 4>> nodes;      ///< a0, a1, b0, b1: faces a and b at ends 0 and 1
+  std::vector<Vec2> direction;                  ///< end1 − end0 in the reference state [m]
+  std::vector<std::array<double, 4>> offset;    ///< opening0, slip0, opening1, slip1 that make the traction borne at insertion [m]
+  std::vector<EndForces> force;                 ///< of the last evaluation; one more at the end, zero
+  std::vector<CohesiveStatus> status;
+  std::vector<Index> history_of;                ///< into histories; -1: intact
+  std::vector<CohesiveHistory> histories;       ///< in order of activation
+
+  Index count() const { return static_cast<Index>(edge.size()); }
+};
+
+/// A connected volume of fluid.
+struct Cavity {
+  double mass = 0.0;      ///< per metre of thickness [kg/m]
+  double pressure = 0.0;  ///< [Pa]
+  double volume = 0.0;    ///< per metre of thickness [m2]
+  double injected = 0.0;  ///< at reference density [m2]
+  double work = 0.0;      ///< done by the pump [J/m]
+};
+
+struct FluidState {
+  std::vector<Cavity> cavities;         ///< 0 is the wellbore; a merged cavity stays with zero mass
+  std::vector<Index> cavity_of_edge;    ///< per mesh edge; -1: dry
+  std::vector<Index> cavity_of_vertex;  ///< per mesh vertex; -1: not reached
+};
+
+/// Cumulative energies that are sums of increments, per metre of thickness [J/m].
+struct Dissipation {
+  double fracture = 0.0;
+  double friction = 0.0;
+  double viscous = 0.0;
+  double boundary = 0.0;  ///< radiated through an absorbing boundary
+};
+
+/// Every number that changes during a run, as plain arrays: what a checkpoint saves.
+///
+/// A triangle has three corners (corner 3 t + i). A node is a group of corners that move together:
+/// with cohesive elements on all edges every corner is a node of its own, without any the corners
+/// round a vertex are one node. Corners of a node are a segment of `node_corners`.
+struct State {
+  std::shared_ptr<const Mesh> mesh;
+
+  double time = 0.0;       ///< [s]
+  std::int64_t step = 0;
+  double time_step = 0.0;  ///< of the last step [s]
+
+  // nodes
+  std::vector<Index> node_of_corner;
+  std::vector<Index> node_corners;  ///< corners grouped by node
+  std::vector<Index> node_first;    ///< first of a node in node_corners
+  std::vector<Index> node_size;     ///< corners of a node
+  std::vector<Vec2> displacement;   ///< from the in-situ state [m]
+  std::vector<Vec2> velocity;       ///< half a step behind the displacement [m/s]
+  std::vector<double> inverse_mass; ///< [m/kg]; 0: fixed
+
+  // triangles
+  std::vector<Sym2> strain_rate;    ///< of the last evaluation [1/s]; empty without viscosity
+
+  CohesiveElements cohesive;
+  std::vector<Index> element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i;
+                                       ///< 2 x count() (the zero force) where there is none
+  FluidState fluid;
+  Dissipation dissipation;
+
+  Index node_count() const { return static_cast<Index>(displacement.size()); }
+  Vec2 reference(Index corner) const {
+    return mesh->vertices[static_cast<std::size_t>(mesh->triangles[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)])];
+  }
+  /// Reference position of a node [m].
+  Vec2 node_reference(Index node) const {
+    return reference(node_corners[static_cast<std::size_t>(node_first[static_cast<std::size_t>(node)])]);
+  }
+  /// Current position of a corner [m].
+  Vec2 position(Index corner) const {
+    return reference(corner) + displacement[static_cast<std::size_t>(node_of_corner[static_cast<std::size_t>(corner)])];
+  }
+};
+
+/// A state at rest with one node a corner: every interior edge can carry a cohesive element.
+State make_split_state(std::shared_ptr<const Mesh> mesh);
+
+/// A state at rest with one node a vertex: every interior edge is tied.
+State make_tied_state(std::shared_ptr<const Mesh> mesh);
+
+/// Lumps the mass of every triangle to its corners, a third each. @param density [kg/m3]
+void set_mass(State& state, double density);
+
+/// Holds all nodes on edges of that kind (inverse mass 0).
+void fix_nodes(State& state, EdgeKind kind);
+
+/// Adds a cohesive element on every interior edge; needs a split state. Offsets are zero.
+void insert_all(State& state);
+
+}  // namespace crackle

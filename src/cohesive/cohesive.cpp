@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/cohesive/cohesive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crackle/core/parallel.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// An element gets a history a little before it can yield, so that its first damage is booked whole.
+constexpr double early = 0.95;
+
+struct FastMaterial {
+  double penalty, curvature, tensile_strength, cohesion, tan_friction;
+};
+
+inline EndSeparation separate(const Vec2* u, const std::array<Index, 4>& n, Vec2 direction,
+                              const std::array<double, 4>& offset) {
+  const Vec2 a0 = u[n[0]], a1 = u[n[1]], b0 = u[n[2]], b1 = u[n[3]];
+  // direction of the middle line between the faces
+  const Vec2 e{direction.x + 0.5 * ((a1.x + b1.x) - (a0.x + b0.x)),
+               direction.y + 0.5 * ((a1.y + b1.y) - (a0.y + b0.y))};
+  const double inverse = 1.0 / std::sqrt(e.x * e.x + e.y * e.y);
+  const Vec2 t{e.x * inverse, e.y * inverse};
+  const Vec2 d0{b0.x - a0.x, b0.y - a0.y}, d1{b1.x - a1.x, b1.y - a1.y};
+  // normal (t.y, −t.x) points from face a to face b
+  return {d0.x * t.y - d0.y * t.x + offset[0], d0.x * t.x + d0.y * t.y + offset[1],
+          d1.x * t.y - d1.y * t.x + offset[2], d1.x * t.x + d1.y * t.y + offset[3], t};
+}
+
+// Forces on face a from the tractions at ends and middle, Simpson's rule; the middle's share goes
+// half to each end.
+inline EndForces end_forces(Vec2 t, double sixth, double n0, double s0, double nm, double sm, double n1, double s1) {
+  const double p0 = sixth * (n0 + 2.0 * nm), q0 = sixth * (s0 + 2.0 * sm);
+  const double p1 = sixth * (n1 + 2.0 * nm), q1 = sixth * (s1 + 2.0 * sm);
+  return {{p0 * t.y + q0 * t.x, -p0 * t.x + q0 * t.y}, {p1 * t.y + q1 * t.x, -p1 * t.x + q1 * t.y}};
+}
+
+CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* nodes, const Vec2* direction,
+                                     const std::array<double, 4>* offset, FastMaterial m, Index begin, Index end,
+                                     EndForces* force, std::uint8_t* beyond) {
+  const double f_t = early * m.tensile_strength;
+#pragma omp simd
+  for (Index i = begin; i < end; ++i) {
+    const EndSeparation w = separate(u, nodes[i], direction[i], offset[i]);
+    const double length = std::sqrt(direction[i].x * direction[i].x + direction[i].y * direction[i].y);
+    const double k = m.penalty / length;
+    const double om = 0.5 * (w.opening0 + w.opening1), sm = 0.5 * (w.slip0 + w.slip1);
+    const ElasticTraction e0 =
+        elastic_traction(k, m.curvature, m.tensile_strength, m.cohesion, m.tan_friction, w.opening0, w.slip0);
+    const ElasticTraction em = elastic_traction(k, m.curvature, m.tensile_strength, m.cohesion, m.tan_friction, om, sm);
+    const ElasticTraction e1 =
+        elastic_traction(k, m.curvature, m.tensile_strength, m.cohesion, m.tan_friction, w.opening1, w.slip1);
+    // Near its strength already? Compared with the early strength at both ends; the middle lies between.
+    const double limit = 1.0 + m.curvature;
+    const double pull = k * std::max(w.opening0, w.opening1);
+    const double push0 = k * std::abs(w.slip0), push1 = k * std::abs(w.slip1);
+    const double c0 = early * limit * (m.cohesion - std::min(k * w.opening0, 0.0) * m.tan_friction);
+    const double c1 = early * limit * (m.cohesion - std::min(k * w.opening1, 0.0) * m.tan_friction);
+    beyond[i] = static_cast<std::uint8_t>((pull > limit * f_t) | (push0 > c0) | (push1 > c1));
+    force[i] = end_forces(w.direction, length / 6.0, e0.normal, e0.shear, em.normal, em.shear, e1.normal, e1.shear);
+  }
+}
+
+double kinetic_energy(const State& state, const std::array<Index, 4>& nodes) {
+  double sum = 0.0;
+  for (const Index n : nodes) {
+    if (state.inverse_mass[at(n)] > 0.0) {
+      sum += 0.5 * dot(state.velocity[at(n)], state.velocity[at(n)]) / state.inverse_mass[at(n)];
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, const CohesiveMaterial& material)
+    : law_(std::move(law)), material_(material) {}
+
+EndSeparation Cohesive::separation(const State& state, Index element) const {
+  const CohesiveElements& c = state.cohesive;
+  return separate(state.displacement.data(), c.nodes[at(element)], c.direction[at(element)], c.offset[at(element)]);
+}
+
+Vec2 Cohesive::place(const State& state, Index element) {
+  Vec2 sum;
+  for (const Index n : state.cohesive.nodes[at(element)]) {
+    sum += state.node_reference(n) + state.displacement[at(n)];
+  }
+  return 0.25 * sum;
+}
+
+void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const {
+  CohesiveElements& c = state.cohesive;
+  const std::size_t i = at(h.element);
+  const double length = norm(c.direction[i]);
+  const EndSeparation w = separation(state, h.element);
+  const std::array<double, 3> opening{w.opening0, w.opening1, 0.5 * (w.opening0 + w.opening1)};
+  const std::array<double, 3> slip{w.slip0, w.slip1, 0.5 * (w.slip0 + w.slip1)};
+  const std::array<double, 3> weight{length / 6.0, length / 6.0, 4.0 * length / 6.0};
+  const bool was_broken = c.status[i] != CohesiveStatus::active;
+  double fracture = 0.0, sliding = 0.0, friction = 0.0;
+  int failed = 0;
+  bool yielding = false;
+  for (std::size_t q = 0; q < 3; ++q) {
+    CohesivePoint& p = h.point[q];
+    const CohesivePoint old = p;
+    law_->move(material_, length, opening[q], slip[q], p);
+    // Trapezoidal work of the step is the work the integrator does (energies at full steps).
+    const double d_slip = p.slip - old.slip;
+    const double normal_work = 0.5 * (p.normal + old.normal) * (p.opening - old.opening);
+    const double shear_work = 0.5 * (p.shear + old.shear) * d_slip;
+    const double friction_work = 0.5 * (p.friction + old.friction) * d_slip;
+    const double dissipated = normal_work + shear_work + friction_work - (p.stored - old.stored);
+    if (p.damage > 0.0) {
+      const double slid = std::abs(p.plastic_slip - old.plastic_slip) * std::abs(p.friction);
+      const double rubbed = old.damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
+      friction += weight[q] * rubbed;
+      // Never negative: what a step would gain is left to the ledger's residual, where it shows.
+      const double broken = std::max(dissipated - rubbed, 0.0);
+      if (was_broken) {
+        friction += weight[q] * broken;
+      } else {
+        fracture += weight[q] * broken;
+        if (broken > 0.0) {
+          const double share = std::abs(shear_work) / (std::abs(shear_work) + std::abs(normal_work) + 1e-300);
+          sliding += weight[q] * broken * share;
+        }
+      }
+      yielding = true;
+    }
+    if (p.damage >= 1.0) ++failed;
+  }
+  if (yielding && h.yield_time < 0.0) {
+    h.yield_time = state.time;
+    h.kinetic_at_yield = kinetic_energy(state, c.nodes[i]);
+  }
+  if (!was_broken) {
+    if (yielding) {
+      h.kinetic_rise = std::max(h.kinetic_rise, kinetic_energy(state, c.nodes[i]) - h.kinetic_at_yield);
+    }
+    if (failed >= 2) {
+      // The traction that the third point still bears is given up at once; its energy is spent.
+      for (std::size_t q = 0; q < 3; ++q) {
+        CohesivePoint& p = h.point[q];
+        const double before = p.stored;
+        p.damage = 1.0;
+        law_->move(material_, length, opening[q], slip[q], p);
+        fracture += weight[q] * std::max(before - p.stored, 0.0);
+      }
+      c.status[i] = CohesiveStatus::broken;
+      h.break_time = state.time;
+    }
+  }
+  h.fracture_energy += fracture;
+  h.sliding_work += sliding;
+  h.friction_energy += friction;
+  sum.fracture += fracture;
+  sum.friction += friction;
+  if (c.status[i] == CohesiveStatus::released) {
+    c.force[i] = {};
+  } else {
+    const auto& p = h.point;
+    c.force[i] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
+                            p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
+  }
+}
+
+void Cohesive::add_tractions(State& state) {
+  CohesiveElements& c = state.cohesive;
+  newly_broken_.clear();
+  changed_ = false;
+  if (c.count() == 0) return;
+  beyond_.resize(c.edge.size());
+  const FastMaterial fast{material_.penalty, law_->curvature(), material_.tensile_strength, material_.cohesion,
+                          material_.tan_friction};
+  std::vector<Index> first_beyond(at(block_count(c.count())), 0);
+  for_each_block(c.count(), [&](Index begin, Index end, Index block) {
+    elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.offset.data(), fast, begin,
+                     end, c.force.data(), beyond_.data());
+    Index any = 0;
+    for (Index i = begin; i < end; ++i) any += beyond_[at(i)] && c.history_of[at(i)] < 0;
+    first_beyond[at(block)] = any;
+  });
+  // New histories, in element order.
+  for (Index block = 0; block < block_count(c.count()); ++block) {
+    if (first_beyond[at(block)] == 0) continue;
+    for (Index i = block * block_size; i < std::min(c.count(), (block + 1) * block_size); ++i) {
+      if (!beyond_[at(i)] || c.history_of[at(i)] >= 0) continue;
+      CohesiveHistory h;
+      h.element = i;
+      // Where it stood at the end of the last step it was elastic still: move() there is now.
+      const EndSeparation w = separation(state, i);
+      const double length = norm(c.direction[at(i)]);
+      CohesivePoint elastic;
+      for (std::size_t q = 0; q < 3; ++q) {
+        const double o = q == 0 ? w.opening0 : q == 1 ? w.opening1 : 0.5 * (w.opening0 + w.opening1);
+        const double s = q == 0 ? w.slip0 : q == 1 ? w.slip1 : 0.5 * (w.slip0 + w.slip1);
+        h.point[q] = elastic;
+        law_->move(material_, length, o, s, h.point[q]);
+      }
+      c.history_of[at(i)] = static_cast<Index>(c.histories.size());
+      c.status[at(i)] = CohesiveStatus::active;
+      c.histories.push_back(h);
+    }
+  }
+  // Elements with a history, one by one.
+  const Index active = static_cast<Index>(c.histories.size());
+  std::vector<Dissipation> partial(at(block_count(active)));
+  std::vector<std::vector<Index>> broken(partial.size());
+  for_each_block(active, [&](Index begin, Index end, Index block) {
+    for (Index j = begin; j < end; ++j) {
+      CohesiveHistory& h = c.histories[at(j)];
+      const bool intact = c.status[at(h.element)] == CohesiveStatus::active;
+      evaluate_active(state, h, partial[at(block)]);
+      if (intact && c.status[at(h.element)] == CohesiveStatus::broken) broken[at(block)].push_back(h.element);
+    }
+  });
+  for (std::size_t b = 0; b < partial.size(); ++b) {
+    state.dissipation.fracture += partial[b].fracture;
+    state.dissipation.friction += partial[b].friction;
+    newly_broken_.insert(newly_broken_.end(), broken[b].begin(), broken[b].end());
+  }
+  std::sort(newly_broken_.begin(), newly_broken_.end());
+  changed_ = !newly_broken_.empty();
+}
+
+void Cohesive::cut(State& state, Index element) const {
+  CohesiveElements& c = state.cohesive;
+  CohesiveHistory h;
+  h.element = element;
+  h.break_time = state.time;
+  for (CohesivePoint& p : h.point) p.damage = 1.0;
+  c.history_of[at(element)] = static_cast<Index>(c.histories.size());
+  c.status[at(element)] = CohesiveStatus::broken;
+  c.histories.push_back(h);
+}
+
+double Cohesive::stored_energy(const State& state) const {
+  const CohesiveElements& c = state.cohesive;
+  return sum_over_blocks(c.count(), [&](Index begin, Index end) {
+    double sum = 0.0;
+    for (Index i = begin; i < end; ++i) {
+      const double length = norm(c.direction[at(i)]);
+      if (c.history_of[at(i)] >= 0) {
+        const auto& p = c.histories[at(c.history_of[at(i)])].point;
+        sum += length / 6.0 * (p[0].stored + p[1].stored + 4.0 * p[2].stored);
+        continue;
+      }
+      const EndSeparation w = separation(state, i);
+      sum += length / 6.0 *
+             (law_->elastic_energy(material_, length, w.opening0, w.slip0) +
+              law_->elastic_energy(material_, length, w.opening1, w.slip1) +
+              4.0 * law_->elastic_energy(material_, length, 0.5 * (w.opening0 + w.opening1),
+                                         0.5 * (w.slip0 + w.slip1)));
+    }
+    return sum;
+  });
+}
+
+}  // namespace crackle

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/fluid/fluid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "crackle/core/errors.hpp"
+#include "loops.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Solves V* + Δt² s p = (m/ρ₀) exp(−(p − p₀)/K) for p by Newton's method.
+double solve_pressure(const CompressibleFluid& f, double volume, double softness, double mass, double guess) {
+  double p = guess;
+  for (int i = 0; i < 50; ++i) {
+    const double fluid_volume = mass / f.density * std::exp(-(p - f.reference_pressure) / f.bulk_modulus);
+    const double miss = volume + softness * p - fluid_volume;
+    const double step = miss / (softness + fluid_volume / f.bulk_modulus);
+    p -= step;
+    if (std::abs(step) <= 1e-13 * (std::abs(p) + 1e-3 * f.bulk_modulus)) break;
+  }
+  return p;
+}
+
+}  // namespace
+
+Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump) : fluid_(fluid), pump_(std::move(pump)) {
+  const Mesh& mesh = *state.mesh;
+  edges_of_vertex_first_.assign(mesh.vertices.size() + 1, 0);
+  for (const Edge& e : mesh.edges) {
+    for (const Index v : e.vertex) ++edges_of_vertex_first_[at(v) + 1];
+  }
+  std::partial_sum(edges_of_vertex_first_.begin(), edges_of_vertex_first_.end(), edges_of_vertex_first_.begin());
+  edges_of_vertex_.resize(2 * mesh.edges.size());
+  std::vector<Index> next(edges_of_vertex_first_.begin(), edges_of_vertex_first_.end() - 1);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    for (const Index v : mesh.edges[e].vertex) edges_of_vertex_[at(next[at(v)]++)] = static_cast<Index>(e);
+  }
+  element_of_edge_.assign(mesh.edges.size(), -1);
+  for (Index i = 0; i < state.cohesive.count(); ++i) element_of_edge_[at(state.cohesive.edge[at(i)])] = i;
+  rebuild(state);
+}
+
+void Fluid::rebuild(const State& state) {
+  loops_ = wetted_loops(state, leaks_);
+  std::map<Index, Index> slot_of_node;
+  wet_.clear();
+  slots_.assign(loops_.size(), {});
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    for (const Index corner : loops_[l].corners) {
+      const Index node = state.node_of_corner[at(corner)];
+      const auto [it, fresh] = slot_of_node.try_emplace(node, static_cast<Index>(wet_.size()));
+      if (fresh) wet_.push_back({node, loops_[l].cavity, {}});
+      slots_[l].push_back(it->second);
+    }
+  }
+  measure(state);
+}
+
+void Fluid::measure(const State& state) {
+  volume_.assign(state.fluid.cavities.size(), 0.0);
+  compliance_.assign(state.fluid.cavities.size(), 0.0);
+  for (Wet& w : wet_) w.gradient = {};
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    // The rock lies to the left of the loop, the fluid to its right: V = −½ Σ x_k × x_{k+1}. About
+    // the loop's first point, so that a far origin costs no digits.
+    const auto& corners = loops_[l].corners;
+    const Vec2 origin = state.reference(corners.front());
+    double area = 0.0;
+    Vec2 before = state.position(corners.back()) - origin;
+    Vec2 here = state.position(corners.front()) - origin;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec2 after = state.position(corners[k + 1 < corners.size() ? k + 1 : 0]) - origin;
+      area -= 0.5 * cross(here, after);
+      wet_[at(slots_[l][k])].gradient += Vec2{0.5 * (before.y - after.y), 0.5 * (after.x - before.x)};
+      before = here;
+      here = after;
+    }
+    volume_[at(loops_[l].cavity)] += area;
+  }
+  for (const Wet& w : wet_) {
+    compliance_[at(w.cavity)] += dot(w.gradient, w.gradient) * state.inverse_mass[at(w.node)];
+  }
+}
+
+Index Fluid::fill(State& state, std::span<const Index> edges, double pressure) {
+  const Index cavity = static_cast<Index>(state.fluid.cavities.size());
+  state.fluid.cavities.emplace_back();
+  for (const Index e : edges) {
+    state.fluid.cavity_of_edge[at(e)] = cavity;
+    for (const Index v : state.mesh->edges[at(e)].vertex) state.fluid.cavity_of_vertex[at(v)] = cavity;
+  }
+  rebuild(state);
+  state.fluid.cavities.back().volume = volume_[at(cavity)];
+  state.fluid.cavities.back().pressure = pressure;
+  state.fluid.cavities.back().mass = fluid_.mass(volume_[at(cavity)], pressure);
+  return cavity;
+}
+
+void Fluid::refill(State& state, double pressure) {
+  rebuild(state);
+  for (std::size_t c = 0; c < state.fluid.cavities.size(); ++c) {
+    state.fluid.cavities[c].volume = volume_[c];
+    state.fluid.cavities[c].pressure = pressure;
+    state.fluid.cavities[c].mass = fluid_.mass(volume_[c], pressure);
+  }
+}
+
+void Fluid::connect(State& state, std::span<const Index> broken) {
+  FluidState& f = state.fluid;
+  const Mesh& mesh = *state.mesh;
+  std::vector<Index> reached;  // edges to wet, in order found
+  for (const Index element : broken) {
+    const Index e = state.cohesive.edge[at(element)];
+    const auto& v = mesh.edges[at(e)].vertex;
+    if (f.cavity_of_edge[at(e)] < 0 && (f.cavity_of_vertex[at(v[0])] >= 0 || f.cavity_of_vertex[at(v[1])] >= 0)) {
+      reached.push_back(e);
+    }
+  }
+  if (reached.empty()) return;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const Index e = reached[i];
+    if (f.cavity_of_edge[at(e)] >= 0) continue;
+    const auto& v = mesh.edges[at(e)].vertex;
+    Index cavity = -1;
+    for (const Index w : v) {
+      const Index c = f.cavity_of_vertex[at(w)];
+      if (c >= 0) cavity = cavity < 0 ? c : std::min(cavity, c);
+    }
+    f.cavity_of_edge[at(e)] = cavity;
+    for (const Index w : v) {
+      const Index other = f.cavity_of_vertex[at(w)];
+      f.cavity_of_vertex[at(w)] = cavity;
+      if (other >= 0 && other != cavity) {  // two cavities come together
+        f.cavities[at(cavity)].mass += f.cavities[at(other)].mass;
+        f.cavities[at(cavity)].injected += f.cavities[at(other)].injected;
+        f.cavities[at(cavity)].work += f.cavities[at(other)].work;
+        f.cavities[at(other)] = {};
+        std::replace(f.cavity_of_edge.begin(), f.cavity_of_edge.end(), other, cavity);
+        std::replace(f.cavity_of_vertex.begin(), f.cavity_of_vertex.end(), other, cavity);
+      }
+      if (other < 0) {  // fresh vertex: on into broken elements that wait there
+        for (Index k = edges_of_vertex_first_[at(w)]; k < edges_of_vertex_first_[at(w) + 1]; ++k) {
+          const Index next = edges_of_vertex_[at(k)];
+          const Index element = element_of_edge_[at(next)];
+          if (f.cavity_of_edge[at(next)] < 0 && element >= 0 &&
+              state.cohesive.status[at(element)] >= CohesiveStatus::broken) {
+            reached.push_back(next);
+          }
+        }
+      }
+    }
+  }
+  rebuild(state);
+}
+
+void Fluid::advance(State& state, double dt) {
+  if (wet_.empty()) return;
+  FluidState& f = state.fluid;
+  measure(state);
+  const double injected = pump_.volume(state.time, state.time + dt);
+  for (std::size_t c = 0; c < f.cavities.size(); ++c) {
+    Cavity& cavity = f.cavities[c];
+    if (compliance_[c] == 0.0 && volume_[c] == 0.0) continue;  // merged into another
+    const double mass_in = c == 0 ? injected * fluid_.density : 0.0;
+    const double before = cavity.pressure;
+    cavity.mass += mass_in;
+    if (!(cavity.mass > 0.0)) {
+      throw NumericalError(fmt::format("cavity {} holds no fluid (mass {:.3g} kg/m) at step {}, time {:.6g} s: "
+                                       "has the pump drawn more than there was?",
+                                       c, cavity.mass, state.step, state.time));
+    }
+    const double softness = dt * dt * compliance_[c];
+    cavity.pressure = solve_pressure(fluid_, volume_[c], softness, cavity.mass, before);
+    cavity.volume = volume_[c] + softness * cavity.pressure;
+    cavity.injected += mass_in / fluid_.density;
+    cavity.work += mass_in * 0.5 * (fluid_.enthalpy(before) + fluid_.enthalpy(cavity.pressure));
+    if (!(cavity.volume > 0.0)) {
+      throw NumericalError(fmt::format("cavity {} has no volume left ({:.3g} m2) at step {}, time {:.6g} s: "
+                                       "its walls have closed on one another",
+                                       c, cavity.volume, state.step, state.time));
+    }
+  }
+  for (const Wet& w : wet_) {
+    const Vec2 kick = (dt * f.cavities[at(w.cavity)].pressure * state.inverse_mass[at(w.node)]) * w.gradient;
+    state.velocity[at(w.node)] += kick;
+    state.displacement[at(w.node)] += dt * kick;
+  }
+}
+
+double Fluid::energy(const State& state) const {
+  double sum = 0.0;
+  for (const Cavity& c : state.fluid.cavities) sum += fluid_.energy(c.mass, c.volume, c.pressure);
+  return sum;
+}
+
+double Fluid::wetted_length(const State& state) const {
+  double sum = 0.0;
+  for (Index i = 0; i < state.cohesive.count(); ++i) {
+    if (state.fluid.cavity_of_edge[at(state.cohesive.edge[at(i)])] >= 0) sum += norm(state.cohesive.direction[at(i)]);
+  }
+  return sum;
+}
+
+void Fluid::add_corner_forces(const State& state, std::span<Vec2> forces) const {
+  for (const Loop& loop : loops_) {
+    const double p = state.fluid.cavities[at(loop.cavity)].pressure;
+    const auto& c = loop.corners;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const Vec2 before = state.position(c[k > 0 ? k - 1 : c.size() - 1]);
+      const Vec2 after = state.position(c[k + 1 < c.size() ? k + 1 : 0]);
+      forces[at(c[k])] += Vec2{0.5 * p * (before.y - after.y), 0.5 * p * (after.x - before.x)};
+    }
+  }
+}
+
+}  // namespace crackle

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/solid/bulk.hpp"
+
+#include <cmath>
+
+#include "crackle/core/parallel.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+struct Gradient {  // of a vector field over a triangle: g_ij = ∂a_i/∂X_j
+  double xx, xy, yx, yy;
+};
+
+inline Gradient gradient(const std::array<double, 4>& b, Vec2 a0, Vec2 a1, Vec2 a2) {
+  const Vec2 d1 = a1 - a0;
+  const Vec2 d2 = a2 - a0;
+  return {d1.x * b[0] + d2.x * b[2], d1.x * b[1] + d2.x * b[3], d1.y * b[0] + d2.y * b[2],
+          d1.y * b[1] + d2.y * b[3]};
+}
+
+inline Sym2 green_strain(const Gradient& h) {
+  return {h.xx + 0.5 * (h.xx * h.xx + h.yx * h.yx), h.yy + 0.5 * (h.xy * h.xy + h.yy * h.yy),
+          0.5 * (h.xy + h.yx + h.xx * h.xy + h.yx * h.yy)};
+}
+
+// Corner forces of one run of triangles; the viscous part is compiled out where there is none.
+template <bool viscous>
+inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u, const Vec2* __restrict v,
+                        const std::array<double, 4>* __restrict inverse_shape, const double* __restrict area,
+                        const Sym2* __restrict in_situ, const double* __restrict viscosity,
+                        Sym2* __restrict strain_rate, const PlaneStiffness& c, Index count,
+                        Vec2* __restrict forces) {
+  double power = 0.0;
+#pragma omp simd reduction(+ : power)
+  for (Index t = 0; t < count; ++t) {
+    const Index n0 = nodes[3 * t], n1 = nodes[3 * t + 1], n2 = nodes[3 * t + 2];
+    const std::array<double, 4>& b = inverse_shape[t];
+    const Gradient h = gradient(b, u[n0], u[n1], u[n2]);
+    const Sym2 e = green_strain(h);
+    Sym2 s = c.stress(e) + in_situ[t];
+    const double fxx = 1.0 + h.xx, fyy = 1.0 + h.yy;
+    if constexpr (viscous) {
+      const Gradient g = gradient(b, v[n0], v[n1], v[n2]);
+      const Sym2 rate{fxx * g.xx + h.yx * g.yx, h.xy * g.xy + fyy * g.yy,
+                      0.5 * (fxx * g.xy + h.yx * g.yy + h.xy * g.xx + fyy * g.yx)};
+      const Sym2 mean = 0.5 * (rate + strain_rate[t]);
+      power += area[t] * viscosity[t] * (rate.xx * mean.xx + rate.yy * mean.yy + 2.0 * rate.xy * mean.xy);
+      strain_rate[t] = rate;
+      s = s + viscosity[t] * rate;
+    }
+    // P = F S, f_i = −A P ∇N_i
+    const double pxx = fxx * s.xx + h.xy * s.xy, pxy = fxx * s.xy + h.xy * s.yy;
+    const double pyx = h.yx * s.xx + fyy * s.xy, pyy = h.yx * s.xy + fyy * s.yy;
+    const double a = area[t];
+    const Vec2 f1{-a * (pxx * b[0] + pxy * b[1]), -a * (pyx * b[0] + pyy * b[1])};
+    const Vec2 f2{-a * (pxx * b[2] + pxy * b[3]), -a * (pyx * b[2] + pyy * b[3])};
+    forces[3 * t] = Vec2{-f1.x - f2.x, -f1.y - f2.y};
+    forces[3 * t + 1] = f1;
+    forces[3 * t + 2] = f2;
+  }
+  return power;
+}
+
+CRACKLE_KERNEL double elastic_forces(const Index* nodes, const Vec2* u, const std::array<double, 4>* inverse_shape,
+                                     const double* area, const Sym2* in_situ, const PlaneStiffness& c, Index count,
+                                     Vec2* forces) {
+  return forces_of<false>(nodes, u, nullptr, inverse_shape, area, in_situ, nullptr, nullptr, c, count, forces);
+}
+
+CRACKLE_KERNEL double viscous_forces(const Index* nodes, const Vec2* u, const Vec2* v,
+                                     const std::array<double, 4>* inverse_shape, const double* area,
+                                     const Sym2* in_situ, const double* viscosity, Sym2* strain_rate,
+                                     const PlaneStiffness& c, Index count, Vec2* forces) {
+  return forces_of<true>(nodes, u, v, inverse_shape, area, in_situ, viscosity, strain_rate, c, count, forces);
+}
+
+}  // namespace
+
+Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sym2 in_situ_stress,
+           const Damping& damping)
+    : stiffness_(stiffness),
+      density_(density),
+      viscous_(damping.viscosity > 0.0 || damping.ratio > 0.0),
+      inverse_shape_(mesh.triangles.size()),
+      area_(mesh.triangles.size()),
+      in_situ_(mesh.triangles.size(), in_situ_stress) {
+  if (viscous_) viscosity_.resize(mesh.triangles.size());
+  // Young's modulus in plane strain from the stiffness, for the critical viscosity only.
+  const double mu = stiffness.c66;
+  const double lambda = stiffness.c12;
+  const double young_modulus = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const Vec2 d1 = mesh.vertices[at(v[1])] - mesh.vertices[at(v[0])];
+    const Vec2 d2 = mesh.vertices[at(v[2])] - mesh.vertices[at(v[0])];
+    const double twice = cross(d1, d2);
+    inverse_shape_[t] = {d2.y / twice, -d2.x / twice, -d1.y / twice, d1.x / twice};
+    area_[t] = 0.5 * twice;
+    if (viscous_) {
+      const double h = std::sqrt(4.0 / std::sqrt(3.0) * area_[t]);  // edge of the equilateral triangle of this area
+      viscosity_[t] = damping.viscosity + damping.ratio * 2.0 * h * std::sqrt(young_modulus * density);
+    }
+  }
+}
+
+double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) const {
+  const std::size_t b = at(begin);
+  const Index* nodes = state.node_of_corner.data() + 3 * b;
+  const Vec2* u = state.displacement.data();
+  if (!viscous_) {
+    return elastic_forces(nodes, u, inverse_shape_.data() + b, area_.data() + b, in_situ_.data() + b, stiffness_,
+                          end - begin, forces);
+  }
+  return viscous_forces(nodes, u, state.velocity.data(), inverse_shape_.data() + b, area_.data() + b,
+                        in_situ_.data() + b, viscosity_.data() + b, state.strain_rate.data() + b, stiffness_,
+                        end - begin, forces);
+}
+
+double Bulk::strain_energy(const State& state) const {
+  return sum_over_blocks(state.mesh->triangle_count(), [&](Index begin, Index end) {
+    double sum = 0.0;
+    for (Index t = begin; t < end; ++t) {
+      const Index* n = &state.node_of_corner[at(3 * t)];
+      const Sym2 e = green_strain(gradient(inverse_shape_[at(t)], state.displacement[at(n[0])],
+                                           state.displacement[at(n[1])], state.displacement[at(n[2])]));
+      const Sym2 s = 0.5 * stiffness_.stress(e) + in_situ_[at(t)];
+      sum += area_[at(t)] * (s.xx * e.xx + s.yy * e.yy + 2.0 * s.xy * e.xy);
+    }
+    return sum;
+  });
+}
+
+Sym2 Bulk::stress(const State& state, Index triangle) const {
+  const Index* n = &state.node_of_corner[at(3 * triangle)];
+  const Gradient h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
+                              state.displacement[at(n[1])], state.displacement[at(n[2])]);
+  const Sym2 s = stiffness_.stress(green_strain(h)) + in_situ_[at(triangle)];
+  // σ = F S Fᵀ / J
+  const double fxx = 1.0 + h.xx, fyy = 1.0 + h.yy, fxy = h.xy, fyx = h.yx;
+  const double j = fxx * fyy - fxy * fyx;
+  const double ax = fxx * s.xx + fxy * s.xy, ay = fxx * s.xy + fxy * s.yy;
+  const double bx = fyx * s.xx + fyy * s.xy, by = fyx * s.xy + fyy * s.yy;
+  return {(ax * fxx + ay * fxy) / j, (bx * fyx + by * fyy) / j, (ax * fyx + ay * fyy) / j};
+}
+
+double Bulk::area_ratio(const State& state, Index triangle) const {
+  const Index* n = &state.node_of_corner[at(3 * triangle)];
+  const Gradient h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
+                              state.displacement[at(n[1])], state.displacement[at(n[2])]);
+  return (1.0 + h.xx) * (1.0 + h.yy) - h.xy * h.yx;
+}
+
+std::array<Vec2, 3> Bulk::shape_gradients(Index triangle) const {
+  const auto& b = inverse_shape_[at(triangle)];
+  const Vec2 n1{b[0], b[1]}, n2{b[2], b[3]};
+  return {-n1 - n2, n1, n2};
+}
+
+}  // namespace crackle

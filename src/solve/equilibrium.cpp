@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/solve/equilibrium.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "crackle/core/errors.hpp"
+#include "crackle/core/parallel.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+std::vector<Vec2> static_displacement(const Mesh& mesh, const Bulk& bulk, const std::vector<char>& fixed,
+                                      std::span<const Vec2> corner_loads) {
+  std::vector<Index> unknown(mesh.vertices.size(), -1);
+  Index count = 0;
+  for (std::size_t v = 0; v < unknown.size(); ++v) {
+    if (!fixed[v]) unknown[v] = count++;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(mesh.triangles.size() * 21);
+  const PlaneStiffness& c = bulk.stiffness();
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const auto g = bulk.shape_gradients(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index row = unknown[at(mesh.triangles[at(t)][i])];
+      if (row < 0) continue;
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Index column = unknown[at(mesh.triangles[at(t)][j])];
+        if (column < 0 || column > row) continue;  // lower triangle
+        for (int a = 0; a < 2; ++a) {
+          for (int b = 0; b < 2; ++b) {
+            // K_ia,jb = A g_i · C[sym(e_b ⊗ g_j)] · e_a
+            const Sym2 strain = b == 0 ? Sym2{g[j].x, 0.0, 0.5 * g[j].y} : Sym2{0.0, g[j].y, 0.5 * g[j].x};
+            const Vec2 force = c.stress(strain) * g[i];
+            const Index r = 2 * row + a, k = 2 * column + b;
+            if (k <= r) entries.emplace_back(r, k, bulk.area(t) * (a == 0 ? force.x : force.y));
+          }
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> stiffness(2 * count, 2 * count);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  entries.clear();
+  entries.shrink_to_fit();
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(stiffness);
+  if (solver.info() != Eigen::Success) {
+    throw NumericalError("static equilibrium: the stiffness matrix is singular; is some part of the rock held by "
+                         "nothing (no outer boundary, or a loose block)?");
+  }
+
+  State tied = make_tied_state(std::make_shared<const Mesh>(mesh));
+  tied.strain_rate.assign(mesh.triangles.size(), {});
+  std::vector<Vec2> forces(3 * mesh.triangles.size());
+  Eigen::VectorXd residual(2 * count);
+  double first = 0.0;
+  for (int pass = 0; pass < 8; ++pass) {
+    for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index) {
+      bulk.corner_forces(tied, begin, end, forces.data() + 3 * begin);
+    });
+    residual.setZero();
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const Index u = unknown[at(mesh.triangles[k / 3][k % 3])];
+      if (u < 0) continue;
+      const Vec2 f = corner_loads.empty() ? forces[k] : forces[k] + corner_loads[k];
+      residual[2 * u] += f.x;
+      residual[2 * u + 1] += f.y;
+    }
+    const double norm_now = residual.norm();
+    if (pass == 0) first = norm_now;
+    if (norm_now <= 1e-13 * first || norm_now == 0.0) break;
+    const Eigen::VectorXd step = solver.solve(residual);
+    for (std::size_t v = 0; v < unknown.size(); ++v) {
+      if (unknown[v] >= 0) tied.displacement[v] += Vec2{step[2 * unknown[v]], step[2 * unknown[v] + 1]};
+    }
+  }
+  return tied.displacement;
+}
+
+}  // namespace crackle

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/solve/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "crackle/core/errors.hpp"
+#include "crackle/core/parallel.hpp"
+#include "crackle/seismic/listener.hpp"
+#include "crackle/solve/equilibrium.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Forces that the three cohesive elements round a triangle put on its corners; on face a they are
+// the element's end forces, on face b the opposite at exchanged ends.
+inline void add_element_forces(const Index* element_on_side, const EndForces* force, Vec2* corner) {
+  for (int i = 0; i < 3; ++i) {
+    const Index code = element_on_side[i];
+    const EndForces& f = force[code >> 1];
+    const bool b = code & 1;
+    const double sign = b ? -1.0 : 1.0;
+    const Vec2 here = b ? f.end1 : f.end0;
+    const Vec2 next = b ? f.end0 : f.end1;
+    Vec2& c0 = corner[i];
+    Vec2& c1 = corner[i == 2 ? 0 : i + 1];
+    c0.x += sign * here.x;
+    c0.y += sign * here.y;
+    c1.x += sign * next.x;
+    c1.y += sign * next.y;
+  }
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene)
+    : scene_(std::move(scene)),
+      state_(scene_.law ? make_split_state(scene_.mesh) : make_tied_state(scene_.mesh)),
+      bulk_(*scene_.mesh, scene_.stiffness, scene_.density, scene_.stress, scene_.damping) {
+  set_mass(state_, scene_.density);
+  if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
+  if (scene_.law) {
+    insert_all(state_);
+    cohesive_.emplace(scene_.law, scene_.cohesive);
+    std::vector<char> cut(scene_.mesh->edges.size(), 0);
+    for (const Index e : scene_.cracks) cut[at(e)] = 1;
+    for (Index i = 0; i < state_.cohesive.count(); ++i) {
+      if (cut[at(state_.cohesive.edge[at(i)])]) cohesive_->cut(state_, i);
+    }
+  }
+  corner_force_.resize(state_.node_of_corner.size());
+  for (Index n = 0; n < state_.node_count(); ++n) {
+    if (state_.node_size[at(n)] > 1) shared_nodes_.push_back(n);
+  }
+  settle();
+}
+
+void Simulation::settle() {
+  const Mesh& mesh = *scene_.mesh;
+  if (scene_.fluid) {
+    fluid_.emplace(state_, *scene_.fluid, scene_.pump);
+    std::vector<Index> wall;
+    for (Index e = 0; e < mesh.edge_count(); ++e) {
+      if (mesh.edges[at(e)].kind == EdgeKind::wellbore) wall.push_back(e);
+    }
+    for (const Index e : scene_.cracks) wall.push_back(e);
+    fluid_->fill(state_, wall, scene_.initial_pressure);
+  }
+  std::vector<char> fixed(mesh.vertices.size(), 0);
+  bool any_fixed = false;
+  for (const Edge& edge : mesh.edges) {
+    if (edge.kind != EdgeKind::outer) continue;
+    fixed[at(edge.vertex[0])] = fixed[at(edge.vertex[1])] = 1;
+    any_fixed = true;
+  }
+  std::vector<Vec2> loads(3 * mesh.triangles.size());
+  if (fluid_) fluid_->add_corner_forces(state_, loads);
+  if (any_fixed) {
+    const std::vector<Vec2> u = static_displacement(mesh, bulk_, fixed, loads);
+    for (std::size_t c = 0; c < state_.node_of_corner.size(); ++c) {
+      state_.displacement[at(state_.node_of_corner[c])] = u[at(mesh.triangles[c / 3][c % 3])];
+    }
+  }
+  if (!scene_.absorbing_boundary) fix_nodes(state_, EdgeKind::outer);
+
+  // Forces at the corners now, rock and fluid: the cohesive elements are set to bear them.
+  std::vector<Vec2> forces(loads.size());
+  for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index) {
+    bulk_.corner_forces(state_, begin, end, forces.data() + 3 * begin);
+  });
+  if (fluid_) {
+    fluid_->refill(state_, scene_.initial_pressure);  // the wellbore as the excavation left it
+    fluid_->add_corner_forces(state_, forces);
+  }
+  std::vector<Vec2> reaction;
+  if (scene_.absorbing_boundary) {
+    reaction.assign(forces.size(), {});
+    for (std::size_t c = 0; c < forces.size(); ++c) {
+      if (fixed[at(mesh.triangles[c / 3][c % 3])]) reaction[c] = forces[c];
+    }
+  }
+  if (cohesive_) {
+    const std::vector<double> mobility = state_.inverse_mass;
+    if (scene_.absorbing_boundary) fix_nodes(state_, EdgeKind::outer);  // balance() leaves these to the boundary
+    const std::vector<Index> beyond = cohesive_->balance(state_, forces);
+    state_.inverse_mass = mobility;
+    geostatic_slips_ = static_cast<Index>(beyond.size());
+    cohesive_->add_tractions(state_);
+    if (scene_.absorbing_boundary) {
+      for (Index t = 0; t < mesh.triangle_count(); ++t) {
+        add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), &forces[at(3 * t)]);
+      }
+      for (std::size_t c = 0; c < forces.size(); ++c) {
+        if (fixed[at(mesh.triangles[c / 3][c % 3])]) reaction[c] = forces[c];
+      }
+    }
+  }
+  if (scene_.absorbing_boundary) {
+    for (Vec2& r : reaction) r = -r;
+    boundary_.emplace(state_, scene_.stiffness, scene_.density, reaction);
+  }
+  stable_ = stable_step(state_, bulk_, cohesive());
+  if (geostatic_slips_ > 0) relax();
+  state_.dissipation = {};
+  reference_ = {};
+  reference_.strain = bulk_.strain_energy(state_);
+  if (cohesive_) reference_.cohesive = cohesive_->stored_energy(state_);
+  if (fluid_) reference_.fluid = fluid_->energy(state_);
+}
+
+void Simulation::relax() {
+  // Kinetic damping: whenever the kinetic energy has passed a peak, everything stops and starts again.
+  const double dt = 0.8 * stable_.limit;
+  double before = 0.0, peak = 0.0;
+  const int most = 200000;
+  for (int i = 0; i < most; ++i) {
+    state_.time = -2.0 * dt;  // before the pump starts
+    advance(dt, nullptr);
+    double kinetic = 0.0;
+    for (std::size_t n = 0; n < state_.velocity.size(); ++n) {
+      if (state_.inverse_mass[n] > 0.0) kinetic += 0.5 * dot(state_.velocity[n], state_.velocity[n]) / state_.inverse_mass[n];
+    }
+    peak = std::max(peak, kinetic);
+    if (kinetic < before) {
+      std::fill(state_.velocity.begin(), state_.velocity.end(), Vec2{});
+      if (before < 1e-9 * peak || before == 0.0) {
+        state_.time = 0.0;
+        state_.step = 0;
+        return;
+      }
+      kinetic = 0.0;
+    }
+    before = kinetic;
+  }
+  throw NumericalError(fmt::format("the geostatic stage does not come to rest within {} relaxation steps: {} cohesive "
+                                   "elements were beyond their strength after the excavation; is the rock too weak for "
+                                   "this stress?",
+                                   most, geostatic_slips_));
+}
+
+double Simulation::wellbore_pressure() const {
+  return state_.fluid.cavities.empty() ? 0.0 : state_.fluid.cavities.front().pressure;
+}
+
+void Simulation::move_nodes(double dt) {
+  const Mesh& mesh = *scene_.mesh;
+  std::vector<double> power(at(block_count(mesh.triangle_count())));
+  for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index block) {
+    Vec2 forces[3 * block_size];
+    power[at(block)] = bulk_.corner_forces(state_, begin, end, forces);
+    for (Index t = begin; t < end; ++t) {
+      Vec2* f = forces + 3 * (t - begin);
+      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), f);
+      for (Index i = 0; i < 3; ++i) {
+        const std::size_t n = at(state_.node_of_corner[at(3 * t + i)]);
+        if (state_.node_size[n] == 1) {
+          state_.velocity[n] += (dt * state_.inverse_mass[n]) * f[i];
+          state_.displacement[n] += dt * state_.velocity[n];
+        } else {
+          corner_force_[at(3 * t + i)] = f[i];
+        }
+      }
+    }
+  });
+  for_each_block(static_cast<Index>(shared_nodes_.size()), [&](Index begin, Index end, Index) {
+    for (Index k = begin; k < end; ++k) {
+      const std::size_t n = at(shared_nodes_[at(k)]);
+      Vec2 f;
+      for (Index j = 0; j < state_.node_size[n]; ++j) {
+        f += corner_force_[at(state_.node_corners[at(state_.node_first[n] + j)])];
+      }
+      state_.velocity[n] += (dt * state_.inverse_mass[n]) * f;
+      state_.displacement[n] += dt * state_.velocity[n];
+    }
+  });
+  for (const double p : power) state_.dissipation.viscous += dt * p;
+}
+
+void Simulation::advance(double dt, Energies* account) {
+  stopwatch_.start();
+  new_events_.clear();
+  if (cohesive_) {
+    cohesive_->add_tractions(state_);
+    stopwatch_.lap(Stopwatch::cohesive);
+  }
+  if (account != nullptr) {
+    *account = potential_energies();
+    velocity_before_ = state_.velocity;
+    stopwatch_.lap(Stopwatch::ledger);
+  }
+  if (cohesive_ && !cohesive_->newly_broken().empty()) {
+    new_events_ = listen(state_, cohesive_->newly_broken(), scene_.thickness);
+    stopwatch_.lap(Stopwatch::events);
+    if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
+    stopwatch_.lap(Stopwatch::fluid);
+  }
+  if (boundary_) boundary_->apply(state_, dt);
+  move_nodes(dt);
+  stopwatch_.lap(Stopwatch::rock);
+  if (fluid_) {
+    fluid_->advance(state_, dt);
+    stopwatch_.lap(Stopwatch::fluid);
+    if (fluid_->leaks()) {
+      throw NumericalError(fmt::format("a fracture has reached the outer boundary at step {}, time {:.6g} s, and the "
+                                       "fluid would leave the model there: end the run earlier or make the domain larger",
+                                       state_.step, state_.time));
+    }
+  }
+  if (account != nullptr) {
+    // ½ Σ m v(n−½)·v(n+½): with the stored energies at n this is what the integrator conserves.
+    account->kinetic = sum_over_blocks(state_.node_count(), [&](Index begin, Index end) {
+      double sum = 0.0;
+      for (Index n = begin; n < end; ++n) {
+        if (state_.inverse_mass[at(n)] > 0.0) {
+          sum += 0.5 * dot(velocity_before_[at(n)], state_.velocity[at(n)]) / state_.inverse_mass[at(n)];
+        }
+      }
+      return sum;
+    });
+    account->viscous = state_.dissipation.viscous;
+    stopwatch_.lap(Stopwatch::ledger);
+  }
+  state_.time += dt;
+  state_.time_step = dt;
+  ++state_.step;
+}
+
+Energies Simulation::potential_energies() const {
+  Energies e;
+  e.strain = bulk_.strain_energy(state_) - reference_.strain;
+  if (cohesive_) e.cohesive = cohesive_->stored_energy(state_) - reference_.cohesive;
+  if (fluid_) e.fluid = fluid_->energy(state_) - reference_.fluid;
+  e.fracture = state_.dissipation.fracture;
+  e.friction = state_.dissipation.friction;
+  for (const Cavity& cavity : state_.fluid.cavities) e.external += cavity.work;
+  e.external -= state_.dissipation.boundary;
+  return e;
+}
+
+Energies Simulation::step_and_account(double dt) {
+  Energies e;
+  advance(dt, &e);
+  const double stored = e.kinetic + e.strain + e.cohesive + e.fluid;
+  const double spent = e.fracture + e.friction + e.viscous;
+  scale_ = std::max({scale_, std::abs(e.external), std::abs(e.strain), std::abs(e.fluid), spent});
+  e.residual = scale_ > 0.0 ? std::abs(stored + spent - e.external) / scale_ : 0.0;
+  if (!std::isfinite(stored + spent)) stop_not_finite();
+  return e;
+}
+
+void Simulation::stop_not_finite() const {
+  const Mesh& mesh = *scene_.mesh;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    for (Index i = 0; i < 3; ++i) {
+      const std::size_t n = at(state_.node_of_corner[at(3 * t + i)]);
+      const Vec2 u = state_.displacement[n], v = state_.velocity[n];
+      if (std::isfinite(u.x) && std::isfinite(u.y) && std::isfinite(v.x) && std::isfinite(v.y)) continue;
+      const Vec2 x = state_.reference(3 * t + i);
+      throw NumericalError(fmt::format("motion is no longer finite in triangle {} at ({:.4g}, {:.4g}) m, step {}, time "
+                                       "{:.6g} s, step size {:.3g} s (stable: {:.3g} s): take a smaller run.safety",
+                                       t, x.x, x.y, state_.step, state_.time, state_.time_step, stable_.limit));
+    }
+  }
+  throw NumericalError(fmt::format("energy is no longer finite at step {}, time {:.6g} s", state_.step, state_.time));
+}
+
+double Simulation::imbalance() {
+  const Mesh& mesh = *scene_.mesh;
+  std::vector<Vec2> forces(3 * mesh.triangles.size());
+  for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index) {
+    bulk_.corner_forces(state_, begin, end, forces.data() + 3 * begin);
+  });
+  double largest = 0.0;
+  for (const Vec2 f : forces) largest = std::max(largest, norm(f));
+  if (cohesive_) cohesive_->add_tractions(state_);
+  if (fluid_) fluid_->add_corner_forces(state_, forces);
+  std::vector<Vec2> sum(at(state_.node_count()));
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), &forces[at(3 * t)]);
+    for (Index i = 0; i < 3; ++i) sum[at(state_.node_of_corner[at(3 * t + i)])] += forces[at(3 * t + i)];
+  }
+  double unbalanced = 0.0;
+  for (std::size_t n = 0; n < sum.size(); ++n) {
+    if (state_.inverse_mass[n] > 0.0) unbalanced = std::max(unbalanced, norm(sum[n]));
+  }
+  return largest > 0.0 ? unbalanced / largest : 0.0;
+}
+
+}  // namespace crackle
