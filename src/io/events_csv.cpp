@@ -94,7 +94,8 @@ std::string event_line(const SeismicEvent& event) {
 
 std::vector<SeismicEvent> read_events_csv(const std::string& path) {
   namespace fs = std::filesystem;
-  const std::string file = fs::is_directory(path) ? (fs::path(path) / "events.csv").string() : path;
+  std::error_code ignored;
+  const std::string file = fs::is_directory(path, ignored) ? (fs::path(path) / "events.csv").string() : path;
   const std::string content = read_whole_file(file);
   std::string_view text = content;
 

@@ -25,14 +25,16 @@ namespace {
 void create_folder(const std::string& path) {
   std::error_code reason;
   fs::create_directories(path, reason);
-  if (fs::is_directory(path)) return;
-  if (fs::exists(path)) refuse(path, "the output folder is a file");
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return;
+  if (fs::exists(path, ignored)) refuse(path, "the output folder is a file");
   refuse(path, "cannot create the output folder: " + reason.message());
 }
 
 void refuse_other_run(const std::string& path) {
   for (const char* name : {"resolved.toml", "history.csv", "events.csv", "summary.json", "fields.pvd"}) {
-    if (!fs::exists(fs::path(path) / name)) continue;
+    std::error_code ignored;
+    if (!fs::exists(fs::path(path) / name, ignored)) continue;
     refuse(path, fmt::format("the output folder already holds a run ({} is there) and nothing is overwritten",
                              name));
   }

@@ -4,6 +4,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -94,7 +95,8 @@ vtkSmartPointer<vtkDataArray> to_array(const Field& field, std::size_t count) {
 
 /// VTK reports errors to a window or to stderr; here they are kept for the one message of CaseError.
 void keep_error(vtkObject*, unsigned long, void* kept, void* text) {
-  if (text != nullptr) *static_cast<std::string*>(kept) = static_cast<const char*>(text);
+  auto& first = *static_cast<std::string*>(kept);
+  if (first.empty() && text != nullptr) first = static_cast<const char*>(text);
 }
 
 /// True when the file is complete: VTK does not check what the last flush, on closing, came to.
@@ -123,6 +125,7 @@ void write_grid(const std::string& path, vtkUnstructuredGrid* grid, double time)
 
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->AddObserver(vtkCommand::ErrorEvent, listener);
+  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
   writer->SetFileName((path + ".tmp").c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
