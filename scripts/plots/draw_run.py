@@ -1,0 +1,33 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draws the figures of a run into its folder: pressure.png, fractures.png, events.png."""
+
+import argparse
+import pathlib
+import sys
+
+from run_data import Run, RunError
+
+import events_figure
+import fractures_figure
+import pressure_figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("run", metavar="RUN_DIR", help="folder that `crackle run` wrote")
+    parser.add_argument("-o", "--output", metavar="DIR", help="where the figures go (default: RUN_DIR)")
+    arguments = parser.parse_args()
+    try:
+        run = Run(arguments.run)
+        folder = pathlib.Path(arguments.output or arguments.run)
+        folder.mkdir(parents=True, exist_ok=True)
+        pressure_figure.draw(run, folder / "pressure.png")
+        fractures_figure.draw(run, folder / "fractures.png")
+        events_figure.draw(run, folder / "events.png")
+    except (RunError, OSError) as error:
+        sys.exit(f"draw_run: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""events.png: where, when and how large the events are, as in Figures 9 and 10 of AbuAisha et al. (2016)."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.lines import Line2D
+
+import look
+from run_data import MODES
+
+MODE_FILLS = {1: "#5b6873", 2: look.MODE_COLORS[2], 3: look.MODE_COLORS[3]}
+
+
+def draw(run, path):
+    figure = plt.figure(figsize=(11.0, 5.9))
+    layout = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0], left=0.07, right=0.98, bottom=0.09,
+                                 top=look.below_titles(figure) - 0.03, wspace=0.2, hspace=0.42)
+    place, over_time, counts = (figure.add_subplot(layout[:, 0]), figure.add_subplot(layout[0, 1]),
+                                figure.add_subplot(layout[1, 1]))
+    time = run.events.get("time_s", np.zeros(0))
+    look.set_titles(figure, run, f"{len(time):,} seismic events")
+    place.set_xlabel("x [mm]")
+    place.set_ylabel("y [mm]")
+    place.set_title("Where", loc="left", fontsize=10)
+    over_time.set_xlabel("time [ms]")
+    over_time.set_ylabel("magnitude")
+    over_time.set_title("Magnitudes over time", loc="left", fontsize=10)
+    counts.set_xlabel("magnitude  (log₁₀ E[J] − 4.8) / 1.5")
+    counts.set_ylabel("events")
+    counts.set_title("How many of which magnitude", loc="left", fontsize=10)
+    if len(time) == 0:
+        for axes in (place, over_time, counts):
+            look.say_empty(axes, "no events")
+            axes.set_xticks([])
+            axes.set_yticks([])
+        look.draw_wellbore(place, run.wellbore_radius * 1e3)
+    else:
+        draw_map(figure, place, run)
+        draw_magnitudes(over_time, run)
+        draw_counts(counts, run)
+    look.save(figure, path)
+
+
+def of_mode(run, name):
+    return run.events["mode"] == name
+
+
+def with_energy(run):
+    """An event that released nothing has no magnitude."""
+    return np.isfinite(run.events["magnitude"])
+
+
+def marker_sizes(magnitude):
+    """Areas [pt²]: doubled by each 0.5 of magnitude, from the smallest but 2 % on."""
+    known = magnitude[np.isfinite(magnitude)]
+    low = np.percentile(known, 2) if known.size else 0.0
+    steps = np.clip(np.nan_to_num(magnitude, nan=low, neginf=low, posinf=low) - low, 0.0, 2.5)
+    return 9.0 * 2.0 ** (2.0 * steps)
+
+
+def draw_map(figure, axes, run):
+    events = run.events
+    time = events["time_s"] * 1e3
+    sizes = marker_sizes(events["magnitude"])
+    span = (time.min(), max(time.max(), time.min() + 1e-9))
+    for mode, name in MODES.items():
+        chosen = of_mode(run, name)
+        dots = axes.scatter(events["x_m"][chosen] * 1e3, events["y_m"][chosen] * 1e3, s=sizes[chosen], c=time[chosen],
+                            vmin=span[0], vmax=span[1], cmap="plasma", marker=look.MODE_MARKERS[mode],
+                            edgecolors=look.INK, linewidths=0.3, alpha=0.9, zorder=2)
+    look.draw_wellbore(axes, run.wellbore_radius * 1e3, face="none")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.08)
+    figure.colorbar(dots, ax=axes, fraction=0.04, pad=0.02).set_label("time [ms]")
+    handles = [Line2D([], [], color="none", marker=look.MODE_MARKERS[mode], markerfacecolor="#b9c1c8",
+                      markeredgecolor=look.INK, markeredgewidth=0.5, markersize=6,
+                      label=f"{name} ({int(of_mode(run, name).sum()):,})") for mode, name in MODES.items()]
+    axes.legend(handles=handles, loc="upper right", frameon=True, framealpha=0.9, edgecolor="none",
+                title="size by magnitude", title_fontsize=8)
+
+
+def draw_magnitudes(axes, run):
+    for mode, name in MODES.items():
+        chosen = of_mode(run, name) & with_energy(run)
+        axes.scatter(run.events["time_s"][chosen] * 1e3, run.events["magnitude"][chosen], s=11,
+                     marker=look.MODE_MARKERS[mode], color=MODE_FILLS[mode], alpha=0.75, linewidths=0, label=name)
+
+
+def draw_counts(axes, run):
+    magnitude = run.events["magnitude"][with_energy(run)]
+    if magnitude.size == 0:
+        look.say_empty(axes, "no event has an energy")
+        return
+    bins = np.arange(np.floor(magnitude.min() * 5.0) / 5.0, magnitude.max() + 0.2, 0.2)
+    if len(bins) < 2:
+        bins = bins[0] + np.array([0.0, 0.2])
+    parts = [run.events["magnitude"][of_mode(run, name) & with_energy(run)] for name in MODES.values()]
+    axes.hist(parts, bins=bins, stacked=True, color=[MODE_FILLS[mode] for mode in MODES], label=list(MODES.values()),
+              edgecolor="white", linewidth=0.6)
+    median = np.median(magnitude)
+    axes.axvline(median, color=look.INK, linewidth=1.0, linestyle=(0, (4, 2)))
+    axes.annotate(f"median {median:.2f}", (median, 1.0), xycoords=("data", "axes fraction"), xytext=(4, -2),
+                  textcoords="offset points", va="top", fontsize=8.5)
+    axes.grid(axis="x", visible=False)
+    axes.legend(loc="best")

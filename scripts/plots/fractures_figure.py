@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""fractures.png: fractures over the velocity magnitude at four times, as in Figure 6 of AbuAisha et al. (2016)."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.colors import PowerNorm
+from matplotlib.lines import Line2D
+
+import look
+from run_data import MODES, Fractures, Frame
+
+
+def draw(run, path):
+    fields = run.frames("fields")
+    chosen = choose(run, fields)
+    rows, columns = (2, 2) if len(chosen) > 2 else (1, max(1, len(chosen)))
+    figure, grid = plt.subplots(rows, columns, figsize=(4.3 * columns + 1.3, 4.35 * rows + 1.2), squeeze=False,
+                                sharex=True, sharey=True)
+    look.set_titles(figure, run, "fractures")
+    if not chosen:
+        look.say_empty(grid[0][0], "no frames yet")
+        look.save(figure, path)
+        return
+    window = window_round([fractures for _, _, fractures in chosen], run, fields[-1][1])
+    panels = [triangles_within(Frame(frame), window) for _, frame, _ in chosen]
+    speeds = np.concatenate([speed for _, _, speed in panels])
+    top = float(np.percentile(speeds, 99.8)) if speeds.size else 0.0
+    norm = PowerNorm(0.5, 0.0, top if top > 0.0 else 1.0)
+    for axes in grid.flat[len(chosen):]:
+        axes.set_visible(False)
+    for axes, (time, _, fractures), panel in zip(grid.flat, chosen, panels):
+        image = draw_panel(axes, panel, fractures, norm, window, run)
+        axes.set_title(f"t = {time * 1e3:.3f} ms", fontsize=10, loc="left")
+        axes.set_title(f"{int(fractures.broken.sum())} broken", fontsize=9, loc="right", color="#5b6873")
+    for axes in grid[-1]:
+        axes.set_xlabel("x [mm]")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("y [mm]")
+    figure.tight_layout(rect=(0, 0.045, 0.91, look.below_titles(figure)))
+    middle = [grid.flat[0].get_position().y1, grid[-1][0].get_position().y0]
+    bar = figure.colorbar(image, cax=figure.add_axes([0.915, middle[1], 0.018, middle[0] - middle[1]]), extend="max")
+    bar.set_label("velocity magnitude [m/s]")
+    add_legend(figure)
+    look.save(figure, path)
+
+
+def choose(run, fields):
+    """At most four (time, fields file, Fractures): the last, and three spread over the time since something broke."""
+    lines = dict(run.frames("fractures"))
+    frames = [(time, path, Fractures(lines.get(time))) for time, path in fields]
+    broken = [frame for frame in frames if frame[2].broken.any()]
+    if len(broken) < 4:
+        return frames[-4:] if len(frames) >= 4 else frames
+    return [broken[i] for i in np.unique(np.linspace(0, len(broken) - 1, 4).round().astype(int))]
+
+
+def window_round(fractures, run, last_frame):
+    """(left, right, bottom, top) [m] of what is shown in every panel."""
+    radius = run.wellbore_radius
+    low, high = np.array([-1.6, -1.6]) * radius, np.array([1.6, 1.6]) * radius
+    places = np.concatenate([f.segments[f.broken].reshape(-1, 2) for f in fractures])
+    if places.size:
+        low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
+    elif radius > 0.0:
+        low, high = np.array([-4.0, -4.0]) * radius, np.array([4.0, 4.0]) * radius
+    else:
+        points = Frame(last_frame).points
+        low, high = points.min(axis=0), points.max(axis=0)
+    # square panels, so that four times stand beside one another
+    half = 0.5 * 1.16 * max(np.max(high - low), 1e-9)
+    middle = 0.5 * (low + high)
+    return middle[0] - half, middle[0] + half, middle[1] - half, middle[1] + half
+
+
+def triangles_within(frame, window):
+    """(points [mm], triangles, speed at the points) of the triangles that the window shows."""
+    corners = frame.points[frame.cells]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    seen = ((high[:, 0] > window[0]) & (low[:, 0] < window[1]) & (high[:, 1] > window[2]) & (low[:, 1] < window[3]))
+    used, triangles = np.unique(frame.cells[seen], return_inverse=True)
+    velocity = frame.point_fields.get("velocity_m_s", np.zeros((len(frame.points), 2)))[used]
+    return frame.points[used] * 1e3, triangles.reshape(-1, 3), np.linalg.norm(velocity, axis=1)
+
+
+def draw_panel(axes, panel, fractures, norm, window, run):
+    points, triangles, speed = panel
+    axes.grid(False)
+    axes.set_aspect("equal")
+    axes.set_xlim(window[0] * 1e3, window[1] * 1e3)
+    axes.set_ylim(window[2] * 1e3, window[3] * 1e3)
+    for spine in axes.spines.values():
+        spine.set_visible(True)
+    image = axes.tripcolor(points[:, 0], points[:, 1], triangles, speed, shading="gouraud", cmap="YlGnBu", norm=norm,
+                           rasterized=True)
+    if run.wellbore_radius > 0.0:
+        axes.add_patch(plt.Circle((0.0, 0.0), run.wellbore_radius * 1e3, fill=False, edgecolor=look.INK, linewidth=0.8))
+    yielding = fractures.segments[~fractures.broken] * 1e3
+    axes.add_collection(LineCollection(yielding, colors="#7a7f85", linewidths=0.5, alpha=0.7))
+    for mode in MODES:
+        lines = fractures.segments[fractures.broken & (fractures.mode == mode)] * 1e3
+        axes.add_collection(LineCollection(lines, colors=look.MODE_COLORS[mode], linewidths=1.5, capstyle="round"))
+    return image
+
+
+def add_legend(figure):
+    handles = [Line2D([], [], color=look.MODE_COLORS[mode], linewidth=1.8, label=f"broken, {name}")
+               for mode, name in MODES.items()]
+    handles.append(Line2D([], [], color="#7a7f85", linewidth=0.7, label="yielding"))
+    figure.legend(handles=handles, loc="lower center", ncol=4, bbox_to_anchor=(0.48, 0.0))

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The look that all figures share."""
+
+import matplotlib
+import matplotlib.pyplot as plt
+
+INK = "#22303c"
+FAINT = "#8a97a3"
+ACCENT = "#c0392b"
+WATER = "#1f6fb2"
+MODE_COLORS = {1: "#111111", 2: "#d7263d", 3: "#e08e00"}  # tensile, shear, mixed
+MODE_MARKERS = {1: "o", 2: "^", 3: "s"}
+
+matplotlib.rcParams.update({
+    "figure.dpi": 100, "savefig.dpi": 150, "savefig.facecolor": "white",
+    "font.family": "DejaVu Sans", "font.size": 9.5,
+    "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": FAINT, "axes.linewidth": 0.8,
+    "xtick.color": INK, "ytick.color": INK, "xtick.direction": "out", "ytick.direction": "out",
+    "axes.grid": True, "grid.color": "#e4e8ec", "grid.linewidth": 0.7, "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False,
+    "legend.frameon": False, "legend.fontsize": 8.5,
+})
+
+
+def plain(text):
+    """Text of a user, not to be read as mathematics."""
+    return text.replace("$", r"\$")
+
+
+def set_titles(figure, run, what):
+    """Title and one line of remarks, left, above everything."""
+    height = figure.get_size_inches()[1]
+    figure.text(0.02, 1.0 - 0.12 / height, plain(f"{run.title}: {what}"), fontsize=12.5, weight="bold", va="top")
+    figure.text(0.02, 1.0 - 0.40 / height, plain(run.remarks()), fontsize=9, color="#5b6873", va="top")
+
+
+def below_titles(figure):
+    """Top of the room left for the axes, as a share of the figure."""
+    return 1.0 - 0.70 / figure.get_size_inches()[1]
+
+
+def say_empty(axes, text):
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=FAINT, fontsize=11)
+
+
+def draw_wellbore(axes, radius, face="white"):
+    """radius [mm]"""
+    if radius > 0.0:
+        axes.add_patch(plt.Circle((0.0, 0.0), radius, facecolor=face, edgecolor=INK, linewidth=0.8, zorder=3))
+
+
+def save(figure, path):
+    figure.savefig(path)
+    plt.close(figure)
+    print(path)
