@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "crackle/io/output.hpp"
+#include "sample_run.hpp"
+
+namespace crackle::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr const char* events_columns =
+    "time_s,x_m,y_m,mode,energy_J_m,magnitude,fracture_energy_J_m,length_m,opening_m,slip_m,edge\n";
+constexpr const char* good_row = "0.001,0.1,-0.2,tensile,0.015,-4.4,0.015,0.003,1e-05,0,17\n";
+
+TEST(HistoryCsv, HasTheAgreedColumnsAndExactValues) {
+  const ScratchFolder scratch;
+  HistoryRow row;
+  row.time = 0.1 + 0.2;  // not 0.3
+  row.time_step = 1.0 / 3.0;
+  row.broken_shear = 7;
+  row.energy_residual = -std::numeric_limits<double>::denorm_min();
+  RunFolder run(scratch / "run");
+  run.append_history(row);
+  // on disk although the run goes on
+  std::istringstream lines(content(scratch / "run/history.csv"));
+  std::string header;
+  std::string line;
+  std::getline(lines, header);
+  std::getline(lines, line);
+  EXPECT_EQ(
+      header,
+      "time_s,time_step_s,pressure_Pa,injection_rate_m2_s,injected_m2,cavity_volume_m2,wetted_length_m,"
+      "broken_tensile,broken_shear,broken_mixed,energy_kinetic_J_m,energy_strain_J_m,energy_cohesive_J_m,"
+      "energy_fracture_J_m,energy_friction_J_m,energy_viscous_J_m,energy_fluid_J_m,work_external_J_m,"
+      "energy_residual");
+  EXPECT_EQ(line, "0.30000000000000004,0.3333333333333333,0,0,0,0,0,0,7,0,0,0,0,0,0,0,0,0,-5e-324");
+}
+
+TEST(EventsCsv, ReadsBackExactly) {
+  const ScratchFolder scratch;
+  std::vector<SeismicEvent> events = sample_events(3e-3);
+  events[0].magnitude = -std::numeric_limits<double>::infinity();
+  {
+    RunFolder run(scratch / "run");
+    for (const SeismicEvent& event : events) run.append_event(event);
+  }
+  EXPECT_EQ(content(scratch / "run/events.csv"), catalog_text(events, sample_case(), "csv"));
+  for (const std::string& path : {scratch / "run", scratch / "run/events.csv"}) {
+    const std::vector<SeismicEvent> read = read_events_csv(path);
+    ASSERT_EQ(read.size(), events.size());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      EXPECT_EQ(read[i].time, events[i].time);
+      EXPECT_EQ(read[i].place, events[i].place);
+      EXPECT_EQ(read[i].mode, events[i].mode);
+      EXPECT_EQ(read[i].energy, events[i].energy);
+      EXPECT_EQ(read[i].magnitude, events[i].magnitude);
+      EXPECT_EQ(read[i].fracture_energy, events[i].fracture_energy);
+      EXPECT_EQ(read[i].length, events[i].length);
+      EXPECT_EQ(read[i].opening, events[i].opening);
+      EXPECT_EQ(read[i].slip, events[i].slip);
+      EXPECT_EQ(read[i].edge, events[i].edge);
+    }
+  }
+}
+
+TEST(EventsCsv, OfARunWithoutEventsIsEmpty) {
+  const ScratchFolder scratch;
+  { RunFolder(scratch / "run").append_history({}); }
+  EXPECT_EQ(content(scratch / "run/events.csv"), events_columns);
+  EXPECT_TRUE(read_events_csv(scratch / "run").empty());
+}
+
+TEST(EventsCsv, NamesTheLineThatIsDamaged) {
+  const ScratchFolder scratch;
+  const std::string path = scratch / "events.csv";
+  const auto expect = [&](const std::string& text, const std::string& place, const std::string& what) {
+    std::ofstream(path) << text;
+    EXPECT_THAT([&] { read_events_csv(path); },
+                ThrowsMessage<CaseError>(AllOf(HasSubstr("events.csv:" + place), HasSubstr(what))));
+  };
+  const std::string header = events_columns;
+  const std::string good = good_row;
+  expect("", "1: ", "not the events.csv of a run");
+  expect("time_s,x_m\n", "1: ", "not the events.csv of a run");
+  expect(header + good + "0.001,0.1,-0.2,tensile,0.0", "3: ", "5 columns instead of 11");
+  expect(header + "\n" + good, "2: ", "1 columns instead of 11");
+  expect(header + good + "0.001,zero,-0.2,tensile,0.015,-4.4,0.015,0.003,1e-05,0,17\n",
+         "3: ", "x_m is \"zero\"");
+  expect(header + "0.001,0.1,-0.2,torn,0.015,-4.4,0.015,0.003,1e-05,0,17\n", "2: ", "mode is \"torn\"");
+  expect(header + "0.001,0.1,-0.2,shear,0.015,-4.4,0.015,0.003,1e-05,0,1.5\n", "2: ", "edge is \"1.5\"");
+  EXPECT_THAT([&] { read_events_csv(scratch / "none.csv"); },
+              ThrowsMessage<CaseError>(HasSubstr("none.csv: cannot read: No such file")));
+  // line ends of another system do no harm
+  std::ofstream(path) << header.substr(0, header.size() - 1) << "\r\n"
+                      << good.substr(0, good.size() - 1) << "\r\n";
+  EXPECT_EQ(read_events_csv(path).size(), 1U);
+}
+
+}  // namespace
+}  // namespace crackle::test
