@@ -18,7 +18,7 @@ void check_wellbore(const Case& scene, const GivenKeys& given) {
   const double diameter = scene.wellbore.diameter;
   const bool in_domain = scene.domain.width > 0.0 && scene.domain.height > 0.0;
   if (in_domain && diameter >= std::min(scene.domain.width, scene.domain.height)) {
-    fail(given.place("wellbore.diameter"),
+    fail(given.latest({"wellbore.diameter", "domain.width", "domain.height"}),
          fmt::format("wellbore.diameter = {} m does not fit the domain of {} m x {} m", diameter,
                      scene.domain.width, scene.domain.height));
   }
@@ -44,21 +44,23 @@ void check_mesh(const Case& scene, const GivenKeys& given) {
     return;
   }
   if (mesh.size_fine > mesh.size_coarse) {
-    fail(given.place("mesh.size_fine"), fmt::format("mesh.size_fine = {} m is above mesh.size_coarse = {} m",
-                                                    mesh.size_fine, mesh.size_coarse));
+    fail(given.latest({"mesh.size_fine", "mesh.size_coarse"}),
+         fmt::format("mesh.size_fine = {} m is above mesh.size_coarse = {} m", mesh.size_fine,
+                     mesh.size_coarse));
   }
   if (mesh.size_fine > std::max(scene.domain.width, scene.domain.height)) {
-    fail(given.place("mesh.size_fine"),
+    fail(given.latest({"mesh.size_fine", "domain.width", "domain.height"}),
          fmt::format("mesh.size_fine = {} m is above the size of the domain", mesh.size_fine));
   }
   if (radius > 0.0 && scene.wellbore.segments == 0 && mesh.size_fine > radius) {
-    fail(given.place("mesh.size_fine"), fmt::format("mesh.size_fine = {} m is above the wellbore's radius of "
-                                                    "{} m: the wellbore would have fewer than "
-                                                    "six edges",
-                                                    mesh.size_fine, radius));
+    fail(given.latest({"mesh.size_fine", "wellbore.diameter"}),
+         fmt::format("mesh.size_fine = {} m is above the wellbore's radius of "
+                     "{} m: the wellbore would have fewer than "
+                     "six edges",
+                     mesh.size_fine, radius));
   }
   if (mesh.fine_radius > 0.0 && mesh.fine_radius < radius) {
-    fail(given.place("mesh.fine_radius"),
+    fail(given.latest({"mesh.fine_radius", "wellbore.diameter"}),
          fmt::format("mesh.fine_radius = {} m lies inside the wellbore, whose radius is {} m",
                      mesh.fine_radius, radius));
   }
@@ -118,8 +120,9 @@ void finish_damping(Case::Damping& damping, const GivenKeys& given) {
 
 void finish_run(Case& scene, const GivenKeys& given) {
   if (scene.run.time_step > scene.run.end_time) {
-    fail(given.place("run.time_step"), fmt::format("run.time_step = {} s is above run.end_time = {} s",
-                                                   scene.run.time_step, scene.run.end_time));
+    fail(given.latest({"run.time_step", "run.end_time"}),
+         fmt::format("run.time_step = {} s is above run.end_time = {} s", scene.run.time_step,
+                     scene.run.end_time));
   }
   if (scene.output.fields_every == 0.0) scene.output.fields_every = scene.run.end_time / 20.0;
   if (scene.output.history_every == 0.0) scene.output.history_every = scene.run.end_time / 1000.0;

@@ -30,8 +30,9 @@ class Reader {
 
   void read_table(const TomlNode& node, const Spot& spot) {
     for (const TomlNode& child : node.children) {
-      const std::string name = join_path(spot.table.name, child.key);
-      if (const TableSpec* table = find_table(name)) {
+      const bool plain = !child.key.empty() && child.key.find('.') == std::string::npos;
+      const TableSpec* table = plain ? find_table(join_path(spot.table.name, child.key)) : nullptr;
+      if (table) {
         read_sub_table(child, *table);
       } else if (const KeySpec* key = find_key(spot.table, child.key)) {
         const std::string path = join_path(spot.path, child.key);
@@ -106,6 +107,14 @@ ReadCase read_tree(TomlNode root, const std::string& file, const std::vector<std
 }
 
 }  // namespace
+
+Place GivenKeys::latest(std::initializer_list<std::string_view> paths) const {
+  Place latest = file_;
+  for (const std::string_view path : paths) {
+    if (Place at = place(std::string(path)); at.layer > latest.layer) latest = std::move(at);
+  }
+  return latest;
+}
 
 Place GivenKeys::place(std::string path) const {
   while (!path.empty()) {

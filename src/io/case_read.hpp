@@ -2,8 +2,10 @@
 // From a tree to a Case: each key by its line of the table in case_schema.cpp. Private to io.
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "crackle/io/case.hpp"
 #include "toml_tree.hpp"
@@ -18,6 +20,8 @@ class GivenKeys {
   bool has(const std::string& path) const { return places_.contains(path); }
   /// Of the key; of the table it belongs to if the case leaves the key out; else the file alone.
   Place place(std::string path) const;
+  /// Of the key that was given in the highest layer, the first of equals: the one to change.
+  Place latest(std::initializer_list<std::string_view> paths) const;
 
  private:
   std::map<std::string, Place> places_;

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct BadCase {
   std::vector<std::string> overrides;
   std::string error;  ///< "3:11: part of the message"
 };
+
+void PrintTo(const BadCase& bad, std::ostream* stream) { *stream << bad.name; }
 
 std::string bytes(const std::string& line) {
   std::string text;
