@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "frames.hpp"
+
+#include <algorithm>
+
+#include "crackle/seismic/listener.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+const std::vector<std::string>& field_names() {
+  static const std::vector<std::string> names{"displacement_m", "velocity_m_s", "stress_Pa", "region"};
+  return names;
+}
+
+FieldFrame field_frame(const Simulation& simulation, const std::vector<std::string>& fields) {
+  const State& state = simulation.state();
+  const auto wanted = [&](const char* name) {
+    return fields.empty() || std::find(fields.begin(), fields.end(), name) != fields.end();
+  };
+  FieldFrame frame;
+  frame.time = state.time;
+  const Index triangles = state.mesh->triangle_count();
+  Field displacement{"displacement_m", 2, {}}, velocity{"velocity_m_s", 2, {}};
+  for (Index c = 0; c < 3 * triangles; ++c) {
+    const std::size_t n = at(state.node_of_corner[at(c)]);
+    frame.points.push_back(state.position(c));
+    displacement.values.insert(displacement.values.end(), {state.displacement[n].x, state.displacement[n].y});
+    velocity.values.insert(velocity.values.end(), {state.velocity[n].x, state.velocity[n].y});
+  }
+  Field stress{"stress_Pa", 3, {}}, region{"region", 1, {}};
+  for (Index t = 0; t < triangles; ++t) {
+    frame.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    const Sym2 s = simulation.bulk().stress(state, t);
+    stress.values.insert(stress.values.end(), {s.xx, s.yy, s.xy});
+    region.values.push_back(static_cast<double>(state.mesh->regions[at(t)]));
+  }
+  if (wanted("displacement_m")) frame.point_fields.push_back(std::move(displacement));
+  if (wanted("velocity_m_s")) frame.point_fields.push_back(std::move(velocity));
+  if (wanted("stress_Pa")) frame.cell_fields.push_back(std::move(stress));
+  if (wanted("region")) frame.cell_fields.push_back(std::move(region));
+  return frame;
+}
+
+FractureFrame fracture_frame(const Simulation& simulation) {
+  const State& state = simulation.state();
+  FractureFrame frame;
+  frame.time = state.time;
+  Field opening{"opening_m", 1, {}}, slip{"slip_m", 1, {}}, damage{"damage", 1, {}}, mode{"mode", 1, {}},
+      pressure{"pressure_Pa", 1, {}}, broken{"broken", 1, {}};
+  for (const CohesiveHistory& h : state.cohesive.histories) {
+    const double d = std::max({h.point[0].damage, h.point[1].damage, h.point[2].damage});
+    if (d == 0.0) continue;
+    const std::size_t i = at(h.element);
+    const auto& n = state.cohesive.nodes[i];
+    const auto middle = [&](Index a, Index b) {
+      return 0.5 * (state.node_reference(a) + state.displacement[at(a)] + state.node_reference(b) + state.displacement[at(b)]);
+    };
+    const Index p = static_cast<Index>(frame.points.size());
+    frame.points.push_back(middle(n[0], n[2]));
+    frame.points.push_back(middle(n[1], n[3]));
+    frame.lines.push_back({p, p + 1});
+    const bool is_broken = state.cohesive.status[i] >= CohesiveStatus::broken;
+    const Index cavity = state.fluid.cavity_of_edge[at(state.cohesive.edge[i])];
+    opening.values.push_back(h.point[2].opening);
+    slip.values.push_back(h.point[2].slip);
+    damage.values.push_back(d);
+    const double share = h.fracture_energy > 0.0 ? h.sliding_work / h.fracture_energy : 0.0;
+    mode.values.push_back(is_broken ? static_cast<double>(failure_mode(share)) : 0.0);
+    pressure.values.push_back(cavity >= 0 ? state.fluid.cavities[at(cavity)].pressure : 0.0);
+    broken.values.push_back(is_broken ? 1.0 : 0.0);
+  }
+  frame.cell_fields = {std::move(opening), std::move(slip), std::move(damage), std::move(mode), std::move(pressure), std::move(broken)};
+  return frame;
+}
+
+}  // namespace crackle

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+
+namespace crackle {
+namespace {
+
+std::string duration(double seconds) {
+  const auto s = static_cast<std::int64_t>(seconds + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+}
+
+}  // namespace
+
+Progress::Progress(double end_time, std::int64_t steps, bool quiet)
+    : end_time_(end_time),
+      steps_(steps),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
+
+void Progress::show(const Now& now) {
+  if (quiet_) return;
+  if (terminal_) {
+    const auto t = std::chrono::steady_clock::now();
+    if (t - last_ < std::chrono::milliseconds(500)) return;
+    last_ = t;
+    print(now, false);
+    return;
+  }
+  const int percent = static_cast<int>(100.0 * static_cast<double>(now.step) / static_cast<double>(steps_)) / 5 * 5;
+  if (percent == percent_) return;
+  percent_ = percent;
+  print(now, false);
+}
+
+void Progress::finish(const Now& now) {
+  if (!quiet_ && terminal_) print(now, true);
+}
+
+void Progress::print(const Now& now, bool last) {
+  const double share = static_cast<double>(now.step) / static_cast<double>(steps_);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const std::string left = last ? fmt::format("took {}", duration(wall))
+                           : share > 0.005 ? fmt::format("{} left", duration(wall * (1.0 - share) / share))
+                                           : std::string("...");
+  const std::string text = fmt::format("{:5.1f} %  t = {:.3f} of {:.3f} ms  step {}  {:.2f} MPa  {} broken  {}", 100.0 * share,
+                                       1e3 * now.time, 1e3 * end_time_, now.step, 1e-6 * now.pressure, now.broken, left);
+  if (!terminal_) {
+    fmt::print(stderr, "{}\n", text);
+    return;
+  }
+  constexpr int width = 24;
+  const int full = std::clamp(static_cast<int>(share * width), 0, width);
+  fmt::print(stderr, "\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(full), '#'),
+             std::string(static_cast<std::size_t>(width - full), '.'), text, last ? "\n" : "");
+  std::fflush(stderr);
+}
+
+}  // namespace crackle

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace crackle {
+
+/// Progress of a run on the terminal: a bar renewed twice a second, or one line per 5 % when the
+/// output is not a terminal.
+class Progress {
+ public:
+  struct Now {
+    double time = 0.0;           ///< simulated [s]
+    double pressure = 0.0;       ///< in the wellbore [Pa]
+    std::int64_t step = 0;
+    std::int64_t broken = 0;     ///< cohesive elements
+  };
+
+  Progress(double end_time, std::int64_t steps, bool quiet);
+  void show(const Now& now);
+  /// Ends the bar's line.
+  void finish(const Now& now);
+
+ private:
+  void print(const Now& now, bool last);
+
+  double end_time_;
+  std::int64_t steps_;
+  bool quiet_, terminal_;
+  int percent_ = -1;
+  std::chrono::steady_clock::time_point start_, last_;
+};
+
+}  // namespace crackle

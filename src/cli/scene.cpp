@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene.hpp"
+
+#include <cmath>
+
+#include "crackle/core/errors.hpp"
+
+namespace crackle {
+namespace {
+
+// Below this a triangle would set the time step of the whole run, or nearly have no area.
+constexpr double smallest_angle_deg = 5.0;
+
+}  // namespace
+
+MeshRecipe mesh_recipe(const Case& scene) {
+  MeshRecipe recipe;
+  recipe.generator = scene.mesh.generator;
+  recipe.width = scene.domain.width;
+  recipe.height = scene.domain.height;
+  recipe.wellbore_diameter = scene.wellbore.diameter;
+  recipe.wellbore_segments = scene.wellbore.segments;
+  recipe.size_fine = scene.mesh.size_fine;
+  recipe.fine_radius = scene.mesh.fine_radius;
+  recipe.size_coarse = scene.mesh.size_coarse;
+  recipe.seed = scene.mesh.seed;
+  return recipe;
+}
+
+Mesh make_mesh(const Case& scene) {
+  if (!scene.mesh.file.empty()) {
+    Mesh mesh = read_gmsh(scene.mesh.file);
+    order_along_hilbert_curve(mesh);
+    require_quality(mesh, measure_quality(mesh, nullptr), smallest_angle_deg);
+    return mesh;
+  }
+  const MeshRecipe recipe = mesh_recipe(scene);
+  Mesh mesh = generate_mesh(recipe);
+  require_quality(mesh, measure_quality(mesh, &recipe), smallest_angle_deg);
+  return mesh;
+}
+
+Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
+  Scene s;
+  s.mesh = std::move(excavated);
+  s.stiffness = isotropic_plane_strain(scene.rock.young_modulus, scene.rock.poisson_ratio);
+  s.density = scene.rock.density;
+  s.stress = scene.stress;
+  s.damping = {scene.damping.viscosity.value_or(0.0), scene.damping.ratio.value_or(0.0)};
+  s.law = find_law(scene.cohesive.law);
+  s.cohesive.tensile_strength = scene.rock.tensile_strength;
+  s.cohesive.cohesion = scene.rock.cohesion;
+  s.cohesive.tan_friction = std::tan(scene.rock.friction_angle);
+  s.cohesive.tan_residual = std::tan(scene.contact.friction_angle);
+  s.cohesive.fracture_energy_mode1 = scene.rock.fracture_energy_mode1;
+  s.cohesive.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
+  s.cohesive.penalty = scene.cohesive.penalty;
+  s.cohesive.tangential_penalty = scene.contact.tangential_penalty;
+  s.cohesive.calibration = scene.cohesive.calibration == "y_geo" ? Calibration::y_geo : Calibration::exact;
+  s.absorbing_boundary = scene.boundary.outer == "absorbing";
+  if (scene.wellbore.diameter > 0.0 || !scene.fluid.pump.empty()) {
+    s.fluid = CompressibleFluid{scene.fluid.bulk_modulus, scene.fluid.density, scene.fluid.initial_pressure};
+    s.initial_pressure = scene.fluid.initial_pressure;
+    std::vector<PumpStage> stages;
+    for (const auto& stage : scene.fluid.pump) stages.push_back({stage.from, stage.to, stage.rate});
+    s.pump = Pump(std::move(stages));
+  }
+  s.thickness = scene.seismic.thickness;
+  return s;
+}
+
+}  // namespace crackle

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "crackle/io/case.hpp"
+#include "crackle/mesh/mesh.hpp"
+#include "crackle/solve/simulation.hpp"
+
+namespace crackle {
+
+/// The recipe of a case's mesh.
+MeshRecipe mesh_recipe(const Case& scene);
+
+/// The mesh of a case, generated or read from its file, its core still in; passed by the quality gate.
+/// @throws MeshError
+Mesh make_mesh(const Case& scene);
+
+/// What the solver needs of a case, on an excavated mesh.
+Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated);
+
+}  // namespace crackle
