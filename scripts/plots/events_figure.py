@@ -14,7 +14,7 @@ MODE_FILLS = {1: "#5b6873", 2: look.MODE_COLORS[2], 3: look.MODE_COLORS[3]}
 def draw(run, path):
     figure = plt.figure(figsize=(11.0, 5.9))
     layout = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0], left=0.07, right=0.98, bottom=0.09,
-                                 top=look.below_titles(figure) - 0.03, wspace=0.2, hspace=0.42)
+                                 top=look.below_titles(figure) - 0.03, wspace=0.34, hspace=0.42)
     place, over_time, counts = (figure.add_subplot(layout[:, 0]), figure.add_subplot(layout[0, 1]),
                                 figure.add_subplot(layout[1, 1]))
     time = run.events.get("time_s", np.zeros(0))
@@ -31,9 +31,6 @@ def draw(run, path):
     if len(time) == 0:
         for axes in (place, over_time, counts):
             look.say_empty(axes, "no events")
-            axes.set_xticks([])
-            axes.set_yticks([])
-        look.draw_wellbore(place, run.wellbore_radius * 1e3)
     else:
         draw_map(figure, place, run)
         draw_magnitudes(over_time, run)
@@ -68,14 +65,14 @@ def draw_map(figure, axes, run):
         dots = axes.scatter(events["x_m"][chosen] * 1e3, events["y_m"][chosen] * 1e3, s=sizes[chosen], c=time[chosen],
                             vmin=span[0], vmax=span[1], cmap="plasma", marker=look.MODE_MARKERS[mode],
                             edgecolors=look.INK, linewidths=0.3, alpha=0.9, zorder=2)
-    look.draw_wellbore(axes, run.wellbore_radius * 1e3, face="none")
+    look.draw_wellbore(axes, run.wellbore_radius * 1e3)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.08)
-    figure.colorbar(dots, ax=axes, fraction=0.04, pad=0.02).set_label("time [ms]")
+    figure.colorbar(dots, cax=axes.inset_axes([1.025, 0.0, 0.03, 1.0])).set_label("time [ms]")
     handles = [Line2D([], [], color="none", marker=look.MODE_MARKERS[mode], markerfacecolor="#b9c1c8",
                       markeredgecolor=look.INK, markeredgewidth=0.5, markersize=6,
                       label=f"{name} ({int(of_mode(run, name).sum()):,})") for mode, name in MODES.items()]
-    axes.legend(handles=handles, loc="upper right", frameon=True, framealpha=0.9, edgecolor="none",
+    axes.legend(handles=handles, loc="best", frameon=True, framealpha=0.9, edgecolor="none",
                 title="size by magnitude", title_fontsize=8)
 
 
@@ -99,7 +96,6 @@ def draw_counts(axes, run):
               edgecolor="white", linewidth=0.6)
     median = np.median(magnitude)
     axes.axvline(median, color=look.INK, linewidth=1.0, linestyle=(0, (4, 2)))
-    axes.annotate(f"median {median:.2f}", (median, 1.0), xycoords=("data", "axes fraction"), xytext=(4, -2),
-                  textcoords="offset points", va="top", fontsize=8.5)
+    axes.set_title(f"median {median:.2f}", loc="right", fontsize=9, color="#5b6873")
     axes.grid(axis="x", visible=False)
     axes.legend(loc="best")

@@ -4,19 +4,23 @@
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
-from matplotlib.colors import PowerNorm
+from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 from matplotlib.lines import Line2D
 
 import look
 from run_data import MODES, Fractures, Frame
+
+# light enough for black and red lines to stand out on its upper end
+SPEED_COLORS = LinearSegmentedColormap.from_list("speed", plt.get_cmap("YlGnBu")(np.linspace(0.0, 0.68, 256)))
+YIELDING_COLOR = "#6d7680"
 
 
 def draw(run, path):
     fields = run.frames("fields")
     chosen = choose(run, fields)
     rows, columns = (2, 2) if len(chosen) > 2 else (1, max(1, len(chosen)))
-    figure, grid = plt.subplots(rows, columns, figsize=(4.3 * columns + 1.3, 4.35 * rows + 1.2), squeeze=False,
-                                sharex=True, sharey=True)
+    width, height = max(4.2 * columns + 1.6, 7.4), 4.2 * rows + 1.5
+    figure, grid = plt.subplots(rows, columns, figsize=(width, height), squeeze=False, sharex=True, sharey=True)
     look.set_titles(figure, run, "fractures")
     if not chosen:
         look.say_empty(grid[0][0], "no frames yet")
@@ -24,23 +28,27 @@ def draw(run, path):
         return
     window = window_round([fractures for _, _, fractures in chosen], run, fields[-1][1])
     panels = [triangles_within(Frame(frame), window) for _, frame, _ in chosen]
-    speeds = np.concatenate([speed for _, _, speed in panels])
-    top = float(np.percentile(speeds, 99.8)) if speeds.size else 0.0
-    norm = PowerNorm(0.5, 0.0, top if top > 0.0 else 1.0)
+    top = common_top([speed for _, _, speed in panels])
+    unit, scale = ("m/s", 1.0) if top >= 0.1 else ("mm/s", 1e3)
+    norm = PowerNorm(0.5, 0.0, top * scale)
     for axes in grid.flat[len(chosen):]:
         axes.set_visible(False)
-    for axes, (time, _, fractures), panel in zip(grid.flat, chosen, panels):
-        image = draw_panel(axes, panel, fractures, norm, window, run)
+    for axes, (time, _, fractures), (points, triangles, speed) in zip(grid.flat, chosen, panels):
+        image = draw_panel(axes, (points, triangles, speed * scale), fractures, norm, window)
+        look.draw_wellbore(axes, run.wellbore_radius * 1e3)
         axes.set_title(f"t = {time * 1e3:.3f} ms", fontsize=10, loc="left")
         axes.set_title(f"{int(fractures.broken.sum())} broken", fontsize=9, loc="right", color="#5b6873")
     for axes in grid[-1]:
         axes.set_xlabel("x [mm]")
     for axes in grid[:, 0]:
         axes.set_ylabel("y [mm]")
-    figure.tight_layout(rect=(0, 0.045, 0.91, look.below_titles(figure)))
-    middle = [grid.flat[0].get_position().y1, grid[-1][0].get_position().y0]
-    bar = figure.colorbar(image, cax=figure.add_axes([0.915, middle[1], 0.018, middle[0] - middle[1]]), extend="max")
-    bar.set_label("velocity magnitude [m/s]")
+    figure.tight_layout(rect=(0, 0.4 / height, 1.0 - 1.1 / width, look.below_titles(figure)))
+    figure.canvas.draw()  # equal aspect moves the panels
+    last, first = grid.flat[len(chosen) - 1].get_position(), grid.flat[0].get_position()
+    right = max(axes.get_position().x1 for axes in grid.flat[:len(chosen)])
+    bar = figure.colorbar(image, extend="max",
+                          cax=figure.add_axes([right + 0.2 / width, last.y0, 0.16 / width, first.y1 - last.y0]))
+    bar.set_label(f"velocity magnitude [{unit}]")
     add_legend(figure)
     look.save(figure, path)
 
@@ -83,7 +91,14 @@ def triangles_within(frame, window):
     return frame.points[used] * 1e3, triangles.reshape(-1, 3), np.linalg.norm(velocity, axis=1)
 
 
-def draw_panel(axes, panel, fractures, norm, window, run):
+def common_top(speeds):
+    """Upper end [m/s] of the one scale of colours; a single violent frame does not set it."""
+    tops = [float(np.percentile(speed, 99.8)) for speed in speeds if speed.size]
+    tops = [top for top in tops if top > 0.0]
+    return float(np.median(tops)) if tops else 1.0
+
+
+def draw_panel(axes, panel, fractures, norm, window):
     points, triangles, speed = panel
     axes.grid(False)
     axes.set_aspect("equal")
@@ -91,12 +106,12 @@ def draw_panel(axes, panel, fractures, norm, window, run):
     axes.set_ylim(window[2] * 1e3, window[3] * 1e3)
     for spine in axes.spines.values():
         spine.set_visible(True)
-    image = axes.tripcolor(points[:, 0], points[:, 1], triangles, speed, shading="gouraud", cmap="YlGnBu", norm=norm,
+    image = axes.tripcolor(points[:, 0], points[:, 1], triangles, speed, shading="gouraud", cmap=SPEED_COLORS, norm=norm,
                            rasterized=True)
-    if run.wellbore_radius > 0.0:
-        axes.add_patch(plt.Circle((0.0, 0.0), run.wellbore_radius * 1e3, fill=False, edgecolor=look.INK, linewidth=0.8))
     yielding = fractures.segments[~fractures.broken] * 1e3
-    axes.add_collection(LineCollection(yielding, colors="#7a7f85", linewidths=0.5, alpha=0.7))
+    axes.add_collection(LineCollection(yielding, colors=YIELDING_COLOR, linewidths=0.6))
+    broken = fractures.segments[fractures.broken] * 1e3
+    axes.add_collection(LineCollection(broken, colors="white", linewidths=3.0, alpha=0.8, capstyle="round"))
     for mode in MODES:
         lines = fractures.segments[fractures.broken & (fractures.mode == mode)] * 1e3
         axes.add_collection(LineCollection(lines, colors=look.MODE_COLORS[mode], linewidths=1.5, capstyle="round"))
@@ -106,5 +121,5 @@ def draw_panel(axes, panel, fractures, norm, window, run):
 def add_legend(figure):
     handles = [Line2D([], [], color=look.MODE_COLORS[mode], linewidth=1.8, label=f"broken, {name}")
                for mode, name in MODES.items()]
-    handles.append(Line2D([], [], color="#7a7f85", linewidth=0.7, label="yielding"))
-    figure.legend(handles=handles, loc="lower center", ncol=4, bbox_to_anchor=(0.48, 0.0))
+    handles.append(Line2D([], [], color=YIELDING_COLOR, linewidth=0.8, label="yielding"))
+    figure.legend(handles=handles, loc="lower center", ncol=4)

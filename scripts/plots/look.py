@@ -4,6 +4,8 @@
 import matplotlib
 import matplotlib.pyplot as plt
 
+from run_data import shorten
+
 INK = "#22303c"
 FAINT = "#8a97a3"
 ACCENT = "#c0392b"
@@ -30,7 +32,7 @@ def plain(text):
 def set_titles(figure, run, what):
     """Title and one line of remarks, left, above everything."""
     height = figure.get_size_inches()[1]
-    figure.text(0.02, 1.0 - 0.12 / height, plain(f"{run.title}: {what}"), fontsize=12.5, weight="bold", va="top")
+    figure.text(0.02, 1.0 - 0.12 / height, plain(f"{shorten(run.title, 70)} · {what}"), fontsize=12.5, weight="bold", va="top")
     figure.text(0.02, 1.0 - 0.40 / height, plain(run.remarks()), fontsize=9, color="#5b6873", va="top")
 
 
@@ -40,13 +42,15 @@ def below_titles(figure):
 
 
 def say_empty(axes, text):
+    axes.set_xticks([])
+    axes.set_yticks([])
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=FAINT, fontsize=11)
 
 
-def draw_wellbore(axes, radius, face="white"):
-    """radius [mm]"""
+def draw_wellbore(axes, radius):
+    """The wall; radius [mm], 0 for none."""
     if radius > 0.0:
-        axes.add_patch(plt.Circle((0.0, 0.0), radius, facecolor=face, edgecolor=INK, linewidth=0.8, zorder=3))
+        axes.add_patch(plt.Circle((0.0, 0.0), radius, fill=False, edgecolor=INK, linewidth=0.8, zorder=3))
 
 
 def save(figure, path):

@@ -12,8 +12,9 @@ def draw(run, path):
     figure, (top, middle, bottom) = plt.subplots(
         3, 1, figsize=(8.2, 7.6), sharex=True, gridspec_kw={"height_ratios": [3.0, 1.5, 1.2]})
     look.set_titles(figure, run, "wellbore pressure")
-    if run.history.get("time_s", np.zeros(0)).size == 0:
-        look.say_empty(top, "no history yet")
+    if run.history.get("time_s", np.zeros(0)).size < 2:
+        for axes in (top, middle, bottom):
+            look.say_empty(axes, "no history yet")
     else:
         draw_pressure(top, run)
         draw_volumes(middle, run)
@@ -29,23 +30,24 @@ def draw_pressure(axes, run):
     axes.plot(time, pressure, color=look.WATER, linewidth=1.3)
     axes.set_ylabel("pressure [MPa]")
     axes.set_ylim(bottom=min(0.0, np.nanmin(pressure)))
-    axes.margins(x=0.01)
+    axes.set_xlim(time[0], time[-1])
     top = run.breakdown()
     if top is not None:
         at, value = top[0] * 1e3, top[1] / 1e6
-        name = "breakdown" if run.has_broken() else "largest, nothing broken"
-        left = at > 0.55 * time[-1]
-        axes.plot(at, value, "o", color=look.ACCENT, markersize=5)
-        axes.annotate(f"{name} {value:.2f} MPa\nat {at:.3f} ms", (at, value), xytext=(-10 if left else 10, 0),
-                      textcoords="offset points", ha="right" if left else "left", va="top", color=look.ACCENT)
-        axes.set_ylim(top=1.08 * max(value, 1e-6))
+        name, remark = ("breakdown", "") if run.has_broken() else ("largest", ", nothing broken")
+        side = "left" if at < 0.2 * time[-1] else "right" if at > 0.8 * time[-1] else "center"
+        axes.plot(at, value, "o", color=look.ACCENT, markersize=5, clip_on=False)
+        axes.annotate(f"{name} {value:.2f} MPa at {at:.3f} ms{remark}", (at, value), xytext=(0, 7),
+                      textcoords="offset points", ha=side, va="bottom", color=look.ACCENT)
+        axes.set_ylim(top=max(1.15 * value, 1e-6))
     steady = run.summary.get("propagation_pressure_Pa")
     if finite(steady) and run.has_broken():
+        last_tenth = time >= 0.9 * time[-1]
         axes.plot([0.9 * time[-1], time[-1]], [steady / 1e6] * 2, color=look.INK, linewidth=2.2, zorder=4,
                   solid_capstyle="butt")
         axes.annotate(f"propagation {steady / 1e6:.2f} MPa\n(mean of the last tenth)",
-                      (0.95 * time[-1], steady / 1e6), xytext=(0, -8), textcoords="offset points",
-                      ha="center" if time[-1] <= 0 else "right", va="top", fontsize=8.5)
+                      (time[-1], min(steady / 1e6, np.nanmin(pressure[last_tenth]))), xytext=(0, -7),
+                      textcoords="offset points", ha="right", va="top", fontsize=8.5)
 
 
 def draw_volumes(axes, run):
