@@ -34,11 +34,8 @@ struct ReadCase {
   GivenKeys given;
 };
 
-/// @throws CaseError on an unknown or missing key, a wrong type, dimension or range
-ReadCase read_case_tree(const TomlNode& root, const std::string& file, const CaseNames& names);
-
-/// Refuses keys that contradict one another.
-/// Fills in the defaults that depend on other keys. @throws CaseError
+/// Refuses keys that contradict one another, and fills in the defaults that follow from other keys.
+/// @throws CaseError
 void finish_case(ReadCase& read);
 
 }  // namespace crackle

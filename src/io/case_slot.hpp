@@ -19,28 +19,28 @@ T& pick(std::vector<T>& rows, std::size_t row) {
   return rows[row];
 }
 
-template <auto Member, auto... Rest>
+template <auto member, auto... rest>
 auto& follow(auto& table, std::size_t row) {
-  if constexpr (sizeof...(Rest) == 0) {
-    return table.*Member;
+  if constexpr (sizeof...(rest) == 0) {
+    return table.*member;
   } else {
-    return follow<Rest...>(pick(table.*Member, row), row);
+    return follow<rest...>(pick(table.*member, row), row);
   }
 }
 
-template <auto... Path>
+template <auto... path>
 Slot slot() {
-  using T = std::remove_reference_t<decltype(follow<Path...>(std::declval<Case&>(), 0))>;
-  return Ref<T>([](Case& scene, std::size_t row) -> T& { return follow<Path...>(scene, row); });
+  using T = std::remove_reference_t<decltype(follow<path...>(std::declval<Case&>(), 0))>;
+  return Ref<T>([](Case& scene, std::size_t row) -> T& { return follow<path...>(scene, row); });
 }
 
-/// A list of tables, one element of the vector at Path each.
-template <auto... Path>
-TableSpec rows_of(std::string_view name, std::vector<KeySpec> keys) {
+/// A list of tables, one element of the vector at `path` each.
+template <auto... path>
+TableSpec rows_of(std::string_view name, const std::vector<KeySpec>& keys) {
   return {.name = name,
-          .keys = std::move(keys),
-          .rows = [](const Case& scene) { return follow<Path...>(scene, 0).size(); },
-          .resize = [](Case& scene, std::size_t n) { follow<Path...>(scene, 0).resize(n); }};
+          .keys = keys,
+          .rows = [](const Case& scene) { return follow<path...>(scene, 0).size(); },
+          .resize = [](Case& scene, std::size_t n) { follow<path...>(scene, 0).resize(n); }};
 }
 
 }  // namespace crackle

@@ -26,7 +26,7 @@ struct BadCase {
   std::string error;  ///< "3:11: part of the message"
 };
 
-void PrintTo(const BadCase& bad, std::ostream* stream) { *stream << bad.name; }
+std::ostream& operator<<(std::ostream& stream, const BadCase& bad) { return stream << bad.name; }
 
 std::string bytes(const std::string& line) {
   std::string text;
