@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <regex>
+#include <string_view>
 
 #include "crackle/core/errors.hpp"
 
@@ -30,38 +30,91 @@ UtcTime shifted(UtcTime time, std::int64_t nanoseconds) {
   return {time.day + chrono::days{days}, of_day};
 }
 
-/// Nanoseconds of a decimal fraction ("" or ".25"), cut after the ninth digit.
-std::int64_t fraction(const std::string& digits) {
-  std::string nine = digits.empty() ? "" : digits.substr(1, 9);
-  nine.resize(9, '0');
-  return std::stoll(nine);
-}
+/// Takes a text apart from the left; what does not fit is remembered in good().
+class Cursor {
+ public:
+  explicit Cursor(std::string_view text) : rest_(text) {}
+  bool good() const { return good_; }
+  bool at_end() const { return rest_.empty(); }
+
+  bool next_is(std::string_view any_of) const {
+    return !rest_.empty() && any_of.find(rest_.front()) != std::string_view::npos;
+  }
+  char take(std::string_view any_of) {
+    good_ = good_ && next_is(any_of);
+    if (!good_) return '\0';
+    const char taken = rest_.front();
+    rest_.remove_prefix(1);
+    return taken;
+  }
+  int number(int digits) {
+    int value = 0;
+    for (int i = 0; i < digits; ++i) value = 10 * value + (take("0123456789") - '0');
+    return good_ ? value : 0;
+  }
+  /// Digits after the point, cut after the ninth [ns].
+  std::int64_t fraction() {
+    std::int64_t value = 0;
+    int digits = 0;
+    while (next_is("0123456789")) {
+      const int digit = number(1);
+      if (digits < 9) value = 10 * value + digit;
+      ++digits;
+    }
+    good_ = good_ && digits > 0;
+    for (; digits < 9; ++digits) value *= 10;
+    return value;
+  }
+
+ private:
+  std::string_view rest_;
+  bool good_ = true;
+};
 
 }  // namespace
 
 UtcTime parse_utc(const std::string& text) {
-  static const std::regex pattern(
-      R"((\d{4})-(\d\d)-(\d\d)(?:[T ](\d\d):(\d\d):(\d\d)(\.\d+)?(?:Z|([+-])(\d\d):?(\d\d))?)?)");
-  const auto refuse = [&text] {
-    throw CaseError("\"" + text + "\" is not a time; write it as ISO 8601 in UTC, \"2000-01-01T00:00:00Z\"");
-  };
-  std::smatch part;
-  if (!std::regex_match(text, part, pattern)) refuse();
-  const auto number = [&part](std::size_t i) { return part[i].matched ? std::stoi(part[i].str()) : 0; };
-
-  const chrono::year_month_day date{chrono::year{number(1)}, chrono::month{static_cast<unsigned>(number(2))},
-                                    chrono::day{static_cast<unsigned>(number(3))}};
-  if (!date.ok() || number(4) > 23 || number(5) > 59 || number(6) > 59 || number(9) > 23 || number(10) > 59) {
-    refuse();
+  Cursor cursor(text);
+  const int year = cursor.number(4);
+  cursor.take("-");
+  const int month = cursor.number(2);
+  cursor.take("-");
+  const int day = cursor.number(2);
+  bool in_range = true;
+  std::int64_t of_day = 0;  // [ns]
+  std::int64_t east = 0;    // zone [s]
+  if (!cursor.at_end()) {
+    cursor.take("T ");
+    const int hour = cursor.number(2);
+    cursor.take(":");
+    const int minute = cursor.number(2);
+    cursor.take(":");
+    const int second = cursor.number(2);
+    in_range = hour < 24 && minute < 60 && second < 60;
+    of_day = (3600 * hour + 60 * minute + second) * nanoseconds_a_second;
+    if (cursor.next_is(".")) {
+      cursor.take(".");
+      of_day += cursor.fraction();
+    }
+    const char zone = cursor.at_end() ? 'Z' : cursor.take("Z+-");
+    if (zone != 'Z') {
+      const int zone_hour = cursor.number(2);
+      if (cursor.next_is(":")) cursor.take(":");
+      const int zone_minute = cursor.number(2);
+      in_range = in_range && zone_hour < 24 && zone_minute < 60;
+      east = (zone == '-' ? -60 : 60) * (60 * zone_hour + zone_minute);
+    }
   }
-  const std::int64_t seconds = 3600 * number(4) + 60 * number(5) + number(6);
-  const UtcTime local{chrono::sys_days{date}, seconds * nanoseconds_a_second + fraction(part[7].str())};
-  const std::int64_t east = 3600 * number(9) + 60 * number(10);
-  return shifted(local, (part[8] == "-" ? east : -east) * nanoseconds_a_second);
+  const chrono::year_month_day date{chrono::year{year}, chrono::month{static_cast<unsigned>(month)},
+                                    chrono::day{static_cast<unsigned>(day)}};
+  if (!cursor.good() || !cursor.at_end() || !in_range || !date.ok()) {
+    throw CaseError("\"" + text + "\" is not a time; write it as ISO 8601 in UTC, \"2000-01-01T00:00:00Z\"");
+  }
+  return shifted({chrono::sys_days{date}, of_day}, -east * nanoseconds_a_second);
 }
 
 UtcTime later(UtcTime time, double seconds) {
-  // whole seconds apart: a double holds 200 years of seconds to the nanosecond of neither part
+  // whole seconds apart, so that the product with 1e9 does not overflow
   const double whole = std::floor(seconds);
   const auto nanoseconds = std::llround((seconds - whole) * 1e9);
   return shifted(shifted(time, static_cast<std::int64_t>(whole) * nanoseconds_a_second), nanoseconds);

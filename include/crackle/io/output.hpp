@@ -16,18 +16,18 @@ namespace crackle {
 
 /// One row of history.csv; the column names there are these with their units.
 struct HistoryRow {
-  double time = 0.0;             ///< [s]
-  double time_step = 0.0;        ///< [s]
-  double pressure = 0.0;         ///< in the wellbore [Pa]
-  double injection_rate = 0.0;   ///< [m2/s]
-  double injected = 0.0;         ///< volume at reference density [m2]
-  double cavity_volume = 0.0;    ///< [m2]
-  double wetted_length = 0.0;    ///< of wetted fractures, one side [m]
+  double time = 0.0;            ///< [s]
+  double time_step = 0.0;       ///< [s]
+  double pressure = 0.0;        ///< in the wellbore [Pa]
+  double injection_rate = 0.0;  ///< [m2/s]
+  double injected = 0.0;        ///< volume at reference density [m2]
+  double cavity_volume = 0.0;   ///< [m2]
+  double wetted_length = 0.0;   ///< of wetted fractures, one side [m]
   std::int64_t broken_tensile = 0, broken_shear = 0, broken_mixed = 0;
   double energy_kinetic = 0.0, energy_strain = 0.0, energy_cohesive = 0.0, energy_fracture = 0.0,
          energy_friction = 0.0, energy_viscous = 0.0, energy_fluid = 0.0;  ///< [J/m]
-  double work_external = 0.0;    ///< [J/m]
-  double energy_residual = 0.0;  ///< [-]
+  double work_external = 0.0;                                              ///< [J/m]
+  double energy_residual = 0.0;                                            ///< [-]
 };
 
 /// A named value per triangle or per fracture segment; components = 1, 2 or 3 (xx, yy, xy).
@@ -40,19 +40,19 @@ struct Field {
 /// What one frame of fields/*.vtu shows: every triangle with its own three points, so that
 /// fractures are seen as gaps.
 struct FieldFrame {
-  double time = 0.0;                             ///< [s]
-  std::vector<Vec2> points;                      ///< reference position + displacement [m]
-  std::vector<std::array<Index, 3>> triangles;   ///< indices into points
-  std::vector<Field> point_fields;               ///< e.g. displacement_m, velocity_m_s
-  std::vector<Field> cell_fields;                ///< e.g. stress_Pa
+  double time = 0.0;                            ///< [s]
+  std::vector<Vec2> points;                     ///< reference position + displacement [m]
+  std::vector<std::array<Index, 3>> triangles;  ///< indices into points
+  std::vector<Field> point_fields;              ///< e.g. displacement_m, velocity_m_s
+  std::vector<Field> cell_fields;               ///< e.g. stress_Pa
 };
 
 /// What one frame of fractures/*.vtu shows: yielding and broken cohesive elements as lines.
 struct FractureFrame {
-  double time = 0.0;                            ///< [s]
+  double time = 0.0;  ///< [s]
   std::vector<Vec2> points;
   std::vector<std::array<Index, 2>> lines;
-  std::vector<Field> cell_fields;               ///< opening_m, slip_m, damage, mode, pressure_Pa, broken
+  std::vector<Field> cell_fields;  ///< opening_m, slip_m, damage, mode, pressure_Pa, broken
 };
 
 /// Values of summary.json.
@@ -66,12 +66,12 @@ struct RunSummary {
   double energy_residual_max = 0.0;   ///< [-]
   std::int64_t triangles = 0;
   std::int64_t steps = 0;
-  double wall = 0.0;                  ///< [s]
+  double wall = 0.0;  ///< [s]
   double core_ns_per_triangle_step = 0.0;
   std::int64_t events = 0;
-  double magnitude_min = 0.0;         ///< NaN without events (written as null)
+  double magnitude_min = 0.0;  ///< NaN without events (written as null)
   double magnitude_max = 0.0;
-  std::string exit = "done";          ///< "done", "interrupted" or the reason of a numerical stop
+  std::string exit = "done";  ///< "done", "interrupted" or the reason of a numerical stop
 };
 
 class AppendedFile;
