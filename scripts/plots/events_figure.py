@@ -14,7 +14,7 @@ MODE_FILLS = {1: "#5b6873", 2: look.MODE_COLORS[2], 3: look.MODE_COLORS[3]}
 def draw(run, path):
     figure = plt.figure(figsize=(11.0, 5.9))
     layout = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0], left=0.07, right=0.98, bottom=0.09,
-                                 top=look.below_titles(figure) - 0.03, wspace=0.34, hspace=0.42)
+                                 top=look.below_titles(figure) - 0.03, wspace=0.38, hspace=0.42)
     place, over_time, counts = (figure.add_subplot(layout[:, 0]), figure.add_subplot(layout[0, 1]),
                                 figure.add_subplot(layout[1, 1]))
     time = run.events.get("time_s", np.zeros(0))

@@ -21,7 +21,7 @@ def draw(run, path):
     rows, columns = (2, 2) if len(chosen) > 2 else (1, max(1, len(chosen)))
     width, height = max(4.2 * columns + 1.6, 7.4), 4.2 * rows + 1.5
     figure, grid = plt.subplots(rows, columns, figsize=(width, height), squeeze=False, sharex=True, sharey=True)
-    look.set_titles(figure, run, "fractures")
+    look.set_titles(figure, run, "Fractures")
     if not chosen:
         look.say_empty(grid[0][0], "no frames yet")
         look.save(figure, path)
@@ -56,11 +56,21 @@ def draw(run, path):
 def choose(run, fields):
     """At most four (time, fields file, Fractures): the last, and three spread over the time since something broke."""
     lines = dict(run.frames("fractures"))
+    fields = without_twins(fields)
     frames = [(time, path, Fractures(lines.get(time))) for time, path in fields]
     broken = [frame for frame in frames if frame[2].broken.any()]
     if len(broken) < 4:
-        return frames[-4:] if len(frames) >= 4 else frames
-    return [broken[i] for i in np.unique(np.linspace(0, len(broken) - 1, 4).round().astype(int))]
+        return frames[-4:]
+    return [broken[i] for i in np.linspace(0, len(broken) - 1, 4).round().astype(int)]
+
+
+def without_twins(frames):
+    """The end of a run often comes just after a regular frame, which then shows nothing of its own."""
+    if len(frames) > 2:
+        steps = np.diff([time for time, _ in frames])
+        if steps[-1] < 0.25 * np.median(steps):
+            return frames[:-2] + frames[-1:]
+    return frames
 
 
 def window_round(fractures, run, last_frame):

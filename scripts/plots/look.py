@@ -30,10 +30,15 @@ def plain(text):
 
 
 def set_titles(figure, run, what):
-    """Title and one line of remarks, left, above everything."""
+    """Title, and a line that says what is drawn and of which run, left, above everything."""
     height = figure.get_size_inches()[1]
-    figure.text(0.02, 1.0 - 0.12 / height, plain(f"{shorten(run.title, 70)} · {what}"), fontsize=12.5, weight="bold", va="top")
-    figure.text(0.02, 1.0 - 0.40 / height, plain(run.remarks()), fontsize=9, color="#5b6873", va="top")
+    lines = [figure.text(0.02, 1.0 - 0.12 / height, plain(shorten(run.title, 120)), fontsize=12.5, weight="bold",
+                         va="top"),
+             figure.text(0.02, 1.0 - 0.40 / height, plain(" · ".join(filter(None, [what, run.remarks()]))), fontsize=9,
+                         color="#5b6873", va="top")]
+    for line in lines:
+        width = line.get_window_extent(figure.canvas.get_renderer()).width / figure.bbox.width
+        line.set_fontsize(line.get_fontsize() * min(1.0, 0.96 / width) if width > 0.0 else line.get_fontsize())
 
 
 def below_titles(figure):

@@ -11,7 +11,7 @@ from run_data import MODES, finite
 def draw(run, path):
     figure, (top, middle, bottom) = plt.subplots(
         3, 1, figsize=(8.2, 7.6), sharex=True, gridspec_kw={"height_ratios": [3.0, 1.5, 1.2]})
-    look.set_titles(figure, run, "wellbore pressure")
+    look.set_titles(figure, run, "Wellbore pressure")
     if run.history.get("time_s", np.zeros(0)).size < 2:
         for axes in (top, middle, bottom):
             look.say_empty(axes, "no history yet")

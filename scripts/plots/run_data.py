@@ -159,7 +159,12 @@ class Run:
         return [(time, path) for time, path in frames if path.is_file()]
 
     def breakdown(self):
-        """(time [s], pressure [Pa]) of the largest wellbore pressure; None without a history."""
+        """(time [s], pressure [Pa]) of the largest wellbore pressure; None without a history.
+
+        The summary looked at every step, the history holds some of them."""
+        noted = self.summary.get("breakdown_time_s"), self.summary.get("breakdown_pressure_Pa")
+        if all(finite(value) for value in noted):
+            return noted
         pressure = self.history.get("pressure_Pa", np.zeros(0))
         if pressure.size == 0 or not np.isfinite(pressure).any():
             return None
