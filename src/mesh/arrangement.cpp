@@ -21,24 +21,48 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 using Arrangement = CGAL::Constrained_triangulation_plus_2<Delaunay>;
 
-Kernel::Point_2 to_cgal(Vec2 p) { return {p.x, p.y}; }
+/// Overlapping lines gave the same piece twice: one stays, with the first line and lowest joint.
+void merge_equal(std::vector<Segment>& segments) {
+  const auto key = [](const Segment& s) {
+    return std::pair(std::min(s.end[0], s.end[1]), std::max(s.end[0], s.end[1]));
+  };
+  std::stable_sort(segments.begin(), segments.end(),
+                   [&](const Segment& s, const Segment& t) { return key(s) < key(t); });
+  std::vector<Segment> merged;
+  for (const Segment& segment : segments) {
+    if (merged.empty() || key(merged.back()) != key(segment)) {
+      merged.push_back(segment);
+      continue;
+    }
+    Segment& kept = merged.back();
+    kept.line = std::min(kept.line, segment.line);
+    if (kept.joint < 0 || (segment.joint >= 0 && segment.joint < kept.joint)) kept.joint = segment.joint;
+  }
+  segments = std::move(merged);
+}
 
 }  // namespace
 
 Draft arrange(const MeshRecipe& recipe) {
-  Arrangement arrangement;
-  std::vector<std::pair<Arrangement::Constraint_id, Index>> inserted;
-  const auto insert = [&](Vec2 p, Vec2 q, Index joint) {
-    inserted.emplace_back(arrangement.insert_constraint(to_cgal(p), to_cgal(q)), joint);
+  struct Inserted {
+    Arrangement::Constraint_id id;
+    Line line;
+    Index joint;
   };
-  const auto insert_loop = [&](const std::vector<Vec2>& loop) {
-    for (std::size_t k = 0; k < loop.size(); ++k) insert(loop[k], loop[(k + 1) % loop.size()], -1);
+  Arrangement arrangement;
+  std::vector<Inserted> inserted;
+  const auto insert = [&](Vec2 p, Vec2 q, Line line, Index joint) {
+    const Kernel::Point_2 from(p.x, p.y), to(q.x, q.y);
+    inserted.push_back({arrangement.insert_constraint(from, to), line, joint});
+  };
+  const auto insert_loop = [&](const std::vector<Vec2>& loop, Line line) {
+    for (std::size_t k = 0; k < loop.size(); ++k) insert(loop[k], loop[(k + 1) % loop.size()], line, -1);
   };
   const double a = 0.5 * recipe.width, b = 0.5 * recipe.height;
-  insert_loop({{-a, -b}, {a, -b}, {a, b}, {-a, b}});
-  insert_loop(wellbore_polygon(recipe));
+  insert_loop({{-a, -b}, {a, -b}, {a, b}, {-a, b}}, Line::outer);
+  insert_loop(wellbore_polygon(recipe), Line::wellbore);
   for (const Constraint& constraint : recipe.constraints) {
-    insert(constraint.from, constraint.to, constraint.joint);
+    insert(constraint.from, constraint.to, Line::constraint, constraint.joint);
   }
 
   Draft draft;
@@ -46,24 +70,13 @@ Draft arrange(const MeshRecipe& recipe) {
     v->info() = static_cast<Index>(draft.points.size());
     draft.points.push_back({v->point().x(), v->point().y()});
   }
-  for (const auto& [id, joint] : inserted) {
+  for (const auto& [id, line, joint] : inserted) {
     auto v = arrangement.vertices_in_constraint_begin(id);
     for (auto w = std::next(v); w != arrangement.vertices_in_constraint_end(id); v = w++) {
-      draft.segments.push_back({{(*v)->info(), (*w)->info()}, joint});
+      draft.segments.push_back({{(*v)->info(), (*w)->info()}, line, joint});
     }
   }
-
-  // Overlapping constraints gave the same piece twice: keep the one of the lowest joint, if any.
-  const auto key = [](const Segment& s) { return std::minmax(s.end[0], s.end[1]); };
-  const auto rank = [](const Segment& s) { return static_cast<std::uint32_t>(s.joint); };  // -1 comes last
-  std::stable_sort(draft.segments.begin(), draft.segments.end(), [&](const Segment& s, const Segment& t) {
-    const auto ks = std::pair<Index, Index>(key(s)), kt = std::pair<Index, Index>(key(t));
-    return ks != kt ? ks < kt : rank(s) < rank(t);
-  });
-  const auto same = [&](const Segment& s, const Segment& t) {
-    return std::pair<Index, Index>(key(s)) == std::pair<Index, Index>(key(t));
-  };
-  draft.segments.erase(std::unique(draft.segments.begin(), draft.segments.end(), same), draft.segments.end());
+  merge_equal(draft.segments);
   return draft;
 }
 

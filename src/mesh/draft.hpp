@@ -7,10 +7,14 @@
 
 namespace crackle::meshing {
 
-/// A piece of a constraint: two points that have to be joined by an edge.
+/// What a segment is a piece of. Where several overlap, the first counts.
+enum class Line : std::int8_t { outer, wellbore, constraint };
+
+/// A piece of a line: two points that have to be joined by an edge.
 struct Segment {
   std::array<Index, 2> end{-1, -1};
-  Index joint = -1;  ///< -1: outer boundary, wellbore wall or a constraint without a joint
+  Line line = Line::constraint;
+  Index joint = -1;
 };
 
 struct Draft {
@@ -26,15 +30,15 @@ Draft arrange(const MeshRecipe& recipe);
 /// Cuts segments into edges of about the wanted size.
 void subdivide(Draft& draft, const SizeField& size);
 
-/// Fills the plane between the segments with points and triangles (Delaunay refinement).
-void refine(Draft& draft, const SizeField& size, std::uint64_t seed);
+/// Fills the plane between the segments with points and triangles (Delaunay refinement), starting
+/// from given points.
+/// @param spacing start points nearer than this to another point are left out [wanted edge lengths]
+void refine(Draft& draft, const SizeField& size, const std::vector<Vec2>& start, double spacing);
 
-/// The constrained Delaunay triangulation of the points. Points with `drop` set are left out, and
-/// the others renumbered.
-void triangulate(Draft& draft, const std::vector<bool>& drop = {});
+/// Replaces the triangles by the constrained Delaunay triangulation of the points.
+void triangulate(Draft& draft);
 
-/// Moves, removes and adds points off the segments until triangles are near equilateral and edges
-/// near the wanted size.
+/// Moves points off the segments until triangles are near equilateral and edges near the wanted size.
 void smooth(Draft& draft, const SizeField& size);
 
 /// The stages before the order is improved and edges are derived. Each throws MeshError.

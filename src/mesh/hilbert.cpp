@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Neighbours in the plane become neighbours in memory, by the curve of Hilbert (1891).
+#include "hilbert.hpp"
+
 #include <algorithm>
 #include <numeric>
 
-#include "crackle/mesh/mesh.hpp"
 #include "edge_marks.hpp"
 
 namespace crackle {
@@ -28,42 +29,45 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
   return index;
 }
 
-std::vector<Index> triangle_order(const Mesh& mesh) {
-  Vec2 lower = mesh.vertices.front(), upper = lower;
-  for (const Vec2 p : mesh.vertices) {
+}  // namespace
+
+std::vector<Index> meshing::hilbert_order(const std::vector<Vec2>& points) {
+  if (points.empty()) return {};
+  Vec2 lower = points.front(), upper = lower;
+  for (const Vec2 p : points) {
     lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
     upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
   }
-  const double extent = std::max({upper.x - lower.x, upper.y - lower.y, 1e-300});
-  const double cells = static_cast<double>((1u << levels) - 1) / extent;
+  constexpr double last_cell = static_cast<double>((1u << levels) - 1);
+  const double cells = last_cell / std::max({upper.x - lower.x, upper.y - lower.y, 1e-300});
+  const auto cell = [&](double distance) {
+    return static_cast<std::uint32_t>(std::clamp(distance * cells, 0.0, last_cell));
+  };
+  std::vector<std::uint64_t> key;
+  key.reserve(points.size());
+  for (const Vec2 p : points) key.push_back(hilbert_index(cell(p.x - lower.x), cell(p.y - lower.y)));
 
-  std::vector<std::uint64_t> key(mesh.triangles.size());
-  for (std::size_t t = 0; t < key.size(); ++t) {
-    Vec2 centroid;
-    for (const Index v : mesh.triangles[t]) centroid += (1.0 / 3.0) * (mesh.vertices[v] - lower);
-    const auto cell = [&](double at) {
-      return static_cast<std::uint32_t>(std::clamp(at * cells, 0.0, static_cast<double>((1u << levels) - 1)));
-    };
-    key[t] = hilbert_index(cell(centroid.x), cell(centroid.y));
-  }
-  std::vector<Index> order(mesh.triangles.size());
+  std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](Index a, Index b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
   return order;
 }
 
-}  // namespace
-
 void order_along_hilbert_curve(Mesh& mesh) {
   if (mesh.triangles.empty()) return;
   std::vector<meshing::EdgeMark> marks = meshing::edge_marks(mesh);
 
+  std::vector<Vec2> centroids;
+  centroids.reserve(mesh.triangles.size());
+  for (const auto& [p, q, r] : mesh.triangles) {
+    centroids.push_back((1.0 / 3.0) * (mesh.vertices[p] + mesh.vertices[q] + mesh.vertices[r]));
+  }
   std::vector<std::array<Index, 3>> triangles;
   std::vector<Region> regions;
   triangles.reserve(mesh.triangles.size());
   regions.reserve(mesh.triangles.size());
-  for (const Index t : triangle_order(mesh)) {
+  for (const Index t : meshing::hilbert_order(centroids)) {
     triangles.push_back(mesh.triangles[t]);
     regions.push_back(mesh.regions[t]);
   }

@@ -2,44 +2,64 @@
 // Points move to where they make better triangles. The explicit time step of a run is set by its
 // worst triangle, so this pays in every step.
 //
-// A point goes to the mean of the circumcentres of its triangles, weighted by area and by density
-// 1 / size^4 (optimal Delaunay triangulation: Chen and Xu 2004, Alliez et al. 2005, eq. 2), but only
-// where its smallest angle does not suffer; then the edges are flipped back to Delaunay, which never
-// makes the smallest angle smaller (Lawson 1977). So the worst angle only gets better.
+// First all points relax: each goes to the mean of the circumcentres of its triangles, weighted by
+// area and by density 1 / size^4 (optimal Delaunay triangulation: Chen and Xu 2004; Alliez et al.
+// 2005), but only where its smallest angle does not suffer; then edges are flipped back to
+// Delaunay, which never makes the smallest angle smaller (Lawson 1977). Then single points round
+// triangles that still fall short are moved by trial (Freitag and Ollivier-Gooch 1997).
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "draft.hpp"
 
 namespace crackle::meshing {
 namespace {
 
-constexpr double degree = 0.017453292519943295;
-constexpr int sweeps = 12;
+constexpr int relaxing_sweeps = 12;
+constexpr int mending_sweeps = 20;  // at most; it ends when nothing is left to mend
 
-/// sin^2 of the smallest angle of a triangle; -1 when it is turned over.
-double smallest_sine2(Vec2 p, Vec2 q, Vec2 r) {
-  const double doubled_area = cross(q - p, r - p);
-  if (doubled_area <= 0.0) return -1.0;
-  const double a = dot(q - p, q - p), b = dot(r - q, r - q), c = dot(p - r, p - r);
-  return doubled_area * doubled_area / (a * b * c) * std::min({a, b, c});
+// What a triangle should fulfil. An equilateral one has 60 degrees, 0.866 and 1.
+constexpr double wanted_sine2 = 0.3290;      // sin^2 of its smallest angle: 35 degrees
+constexpr double wanted_height = 0.57;       // its smallest height over the wanted edge length
+constexpr double wanted_longest_edge = 1.5;  // over the wanted edge length
+
+/// Squares of a triangle's measures; doubled_area <= 0 when it is turned over.
+struct Shape {
+  double doubled_area, shortest, longest, product;
+  Shape(Vec2 p, Vec2 q, Vec2 r) : doubled_area(cross(q - p, r - p)) {
+    const double a = dot(q - p, q - p), b = dot(r - q, r - q), c = dot(p - r, p - r);
+    shortest = std::min({a, b, c});
+    longest = std::max({a, b, c});
+    product = a * b * c;
+  }
+  /// sin^2 of the smallest angle, or -1
+  double sine2() const {
+    return doubled_area > 0.0 ? doubled_area * doubled_area * shortest / product : -1.0;
+  }
+  /// 1 and above: all wishes fulfilled for edges of length h
+  double fitness(double h) const {
+    const double height = doubled_area * doubled_area / (longest * h * h);
+    return std::min({sine2() / wanted_sine2, height / (wanted_height * wanted_height),
+                     wanted_longest_edge * wanted_longest_edge * h * h / longest});
+  }
+};
+
+/// Circumcentre of the triangle (0, u, v).
+Vec2 circumcentre(Vec2 u, Vec2 v) {
+  const double uu = dot(u, u), vv = dot(v, v);
+  return (0.5 / cross(u, v)) * Vec2{v.y * uu - u.y * vv, u.x * vv - v.x * uu};
 }
 
-Vec2 circumcentre(Vec2 p, Vec2 q, Vec2 r) {
-  const Vec2 u = q - p, v = r - p;
-  const double d = 2.0 * cross(u, v);
-  return p + (1.0 / d) * Vec2{v.y * dot(u, u) - u.y * dot(v, v), u.x * dot(v, v) - v.x * dot(u, u)};
-}
-
-/// The triangles round every point, and which points may move.
+/// The triangles round every point: for each its other two corners, counter-clockwise.
 class Stars {
  public:
-  explicit Stars(const Draft& draft) : draft_(draft), begin_(draft.points.size() + 1, 0) {
+  explicit Stars(const Draft& draft)
+      : begin_(draft.points.size() + 1, 0), opposite_(3 * draft.triangles.size()) {
     for (const auto& triangle : draft.triangles) {
       for (const Index v : triangle) ++begin_[v + 1];
     }
     for (std::size_t v = 0; v < draft.points.size(); ++v) begin_[v + 1] += begin_[v];
-    opposite_.resize(3 * draft.triangles.size());
     std::vector<Index> next(begin_.begin(), begin_.end() - 1);
     for (const auto& triangle : draft.triangles) {
       for (int i = 0; i < 3; ++i) {
@@ -47,53 +67,53 @@ class Stars {
       }
     }
   }
-  /// For every triangle of point v its other two corners, counter-clockwise.
   std::span<const std::array<Index, 2>> of(Index v) const {
     return {opposite_.data() + begin_[v], opposite_.data() + begin_[v + 1]};
   }
-  /// sin^2 of the smallest angle round v, were v at `place`.
-  double worst(Index v, Vec2 place) const {
-    double least = 1.0;
-    for (const auto& [q, r] : of(v)) {
-      least = std::min(least, smallest_sine2(place, draft_.points[q], draft_.points[r]));
-    }
-    return least;
-  }
 
  private:
-  const Draft& draft_;
   std::vector<Index> begin_;
   std::vector<std::array<Index, 2>> opposite_;
 };
 
-std::vector<bool> on_segments(const Draft& draft) {
+std::vector<Index> free_points(const Draft& draft) {
   std::vector<bool> fixed(draft.points.size(), false);
   for (const Segment& segment : draft.segments) {
     for (const Index v : segment.end) fixed[v] = true;
   }
-  return fixed;
+  std::vector<Index> free;
+  for (Index v = 0; v < static_cast<Index>(draft.points.size()); ++v) {
+    if (!fixed[v]) free.push_back(v);
+  }
+  return free;
 }
 
-/// One sweep over all free points, in order: each sees where those before it have gone.
-void relax(Draft& draft, const SizeField& size, const std::vector<bool>& fixed) {
-  static const double good_enough = std::pow(std::sin(36.0 * degree), 2);
+/// One sweep over the free points: each sees where those before it have gone.
+void relax(Draft& draft, const SizeField& size, const std::vector<Index>& free) {
+  constexpr double no_worry = 0.3455;  // sin^2 of 36 degrees: below, an angle must not get smaller
   const Stars stars(draft);
-  for (Index v = 0; v < static_cast<Index>(draft.points.size()); ++v) {
-    if (fixed[v]) continue;
+  for (const Index v : free) {
     const Vec2 here = draft.points[v];
+    const auto worst = [&](Vec2 place) {
+      double least = no_worry;
+      for (const auto& [q, r] : stars.of(v)) {
+        least = std::min(least, Shape(place, draft.points[q], draft.points[r]).sine2());
+      }
+      return least;
+    };
     Vec2 sum;
-    double weight = 0.0;
+    double weights = 0.0;
     for (const auto& [q, r] : stars.of(v)) {
-      const Vec2 b = draft.points[q], c = draft.points[r];
-      const double h = size((1.0 / 3.0) * (here + b + c));
-      const double w = cross(b - here, c - here) / (h * h * h * h);
-      sum += w * (circumcentre(here, b, c) - here);
-      weight += w;
+      const Vec2 to_q = draft.points[q] - here, to_r = draft.points[r] - here;
+      const double h = size(here + (1.0 / 3.0) * (to_q + to_r));
+      const double weight = cross(to_q, to_r) / (h * h * h * h);
+      sum += weight * circumcentre(to_q, to_r);
+      weights += weight;
     }
-    const double before = std::min(stars.worst(v, here), good_enough);
-    Vec2 step = (1.0 / weight) * sum;
+    const double before = worst(here);
+    Vec2 step = (1.0 / weights) * sum;
     for (int attempt = 0; attempt < 3; ++attempt, step *= 0.5) {
-      if (stars.worst(v, here + step) >= before) {
+      if (worst(here + step) >= before) {
         draft.points[v] = here + step;
         break;
       }
@@ -101,13 +121,55 @@ void relax(Draft& draft, const SizeField& size, const std::vector<bool>& fixed) 
   }
 }
 
+/// Moves every free point with an unfit triangle, by trial in eight directions, to where the least
+/// fit triangle round it is fittest. @returns whether any point moved
+bool mend(Draft& draft, const SizeField& size, const std::vector<Index>& free) {
+  constexpr double d = 0.70710678118654752;
+  constexpr std::array<Vec2, 8> directions{
+      {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
+  const Stars stars(draft);
+  bool any_moved = false;
+  for (const Index v : free) {
+    const double h = size(draft.points[v]);
+    double sharpest = wanted_sine2;  // a better height or length must not cost the smallest angle
+    for (const auto& [q, r] : stars.of(v)) {
+      sharpest = std::min(sharpest, Shape(draft.points[v], draft.points[q], draft.points[r]).sine2());
+    }
+    const auto worst = [&](Vec2 place) {
+      double least = 1.0;
+      for (const auto& [q, r] : stars.of(v)) {
+        const Shape shape(place, draft.points[q], draft.points[r]);
+        if (shape.sine2() < sharpest) return -1.0;
+        least = std::min(least, shape.fitness(h));
+      }
+      return least;
+    };
+    double best = worst(draft.points[v]);
+    for (double step = 0.2 * h; step > 0.005 * h && best < 1.0;) {
+      const Vec2 here = draft.points[v];
+      for (const Vec2 direction : directions) {
+        const double trial = worst(here + step * direction);
+        if (trial > best) {
+          best = trial;
+          draft.points[v] = here + step * direction;
+          any_moved = true;
+        }
+      }
+      if (draft.points[v] == here) step *= 0.5;
+    }
+  }
+  return any_moved;
+}
+
 }  // namespace
 
 void smooth(Draft& draft, const SizeField& size) {
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    relax(draft, size, on_segments(draft));
+  const std::vector<Index> free = free_points(draft);
+  for (int sweep = 0; sweep < relaxing_sweeps; ++sweep) {
+    relax(draft, size, free);
     triangulate(draft);
   }
+  for (int sweep = 0; sweep < mending_sweeps && mend(draft, size, free); ++sweep) triangulate(draft);
 }
 
 }  // namespace crackle::meshing

@@ -45,10 +45,10 @@ void subdivide(Draft& draft, const SizeField& size) {
     for (const double at : cuts(p, q, size)) {
       const Index next = static_cast<Index>(draft.points.size());
       draft.points.push_back(p + at * (q - p));
-      pieces.push_back({{last, next}, segment.joint});
+      pieces.push_back({{last, next}, segment.line, segment.joint});
       last = next;
     }
-    pieces.push_back({{last, segment.end[1]}, segment.joint});
+    pieces.push_back({{last, segment.end[1]}, segment.line, segment.joint});
   }
   draft.segments = std::move(pieces);
 }

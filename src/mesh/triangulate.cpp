@@ -19,24 +19,9 @@ using Delaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
-void renumber(Draft& draft, const std::vector<bool>& drop) {
-  std::vector<Index> new_index(draft.points.size(), -1);
-  std::vector<Vec2> kept;
-  for (std::size_t v = 0; v < draft.points.size(); ++v) {
-    if (v < drop.size() && drop[v]) continue;
-    new_index[v] = static_cast<Index>(kept.size());
-    kept.push_back(draft.points[v]);
-  }
-  draft.points = std::move(kept);
-  for (Segment& segment : draft.segments) {
-    for (Index& v : segment.end) v = new_index[v];
-  }
-}
-
 }  // namespace
 
-void triangulate(Draft& draft, const std::vector<bool>& drop) {
-  if (!drop.empty()) renumber(draft, drop);
+void triangulate(Draft& draft) {
   Delaunay delaunay;
   std::vector<Delaunay::Vertex_handle> vertex(draft.points.size());
   Delaunay::Face_handle near;

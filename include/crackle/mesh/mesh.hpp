@@ -116,10 +116,14 @@ void require_quality(const Mesh& mesh, const MeshQuality& quality, double min_an
 
 /// Reads a gmsh file (.msh, any version that libgmsh reads). Physical surfaces named
 /// "wellbore_core" become Region::wellbore_core, all others rock; physical curves named "joint*"
-/// become joints, numbered in the order of their names. @throws MeshError
+/// become joints, numbered from 0 in the order of their names (joint2 before joint10); boundary edges
+/// of the physical curve "wellbore_wall" become EdgeKind::wellbore. Vertices that no triangle uses are
+/// dropped. Not to be called from two threads at once, nor write_gmsh: gmsh has global state.
+/// @throws MeshError
 Mesh read_gmsh(const std::string& path);
 
-/// Writes a gmsh file (version 4.1) that read_gmsh() reads back to the same mesh. @throws MeshError
+/// Writes a gmsh file (version 4.1, binary) that read_gmsh() reads back to the same mesh, bit by bit
+/// and in the same order. The name has to end in .msh. @throws MeshError
 void write_gmsh(const Mesh& mesh, const std::string& path);
 
 /// How structured_rectangle() cuts its cells.
