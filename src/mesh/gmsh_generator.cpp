@@ -2,7 +2,6 @@
 // The points of gmsh's Delaunay algorithm instead of random ones; refinement then only mends. gmsh gets lines
 // that are already split where they cross: left to itself its built-in kernel drops crossing lines
 // without a word.
-#include <fmt/format.h>
 #include <gmsh.h>
 
 #include <unordered_map>
@@ -114,8 +113,7 @@ Draft make_gmsh_draft(const MeshRecipe& recipe) {
   Draft draft = arrange(recipe);
   subdivide(draft, size);
   std::vector<Vec2> points;
-  try {
-    const GmshSession session;
+  with_gmsh("gmsh cannot mesh the recipe", [&] {
     set_options();
     build_geometry(draft, wellbore_polygon(recipe));
     gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) {
@@ -123,9 +121,7 @@ Draft make_gmsh_draft(const MeshRecipe& recipe) {
     });
     gmsh::model::mesh::generate(2);
     points = read_points(size, recipe.seed);
-  } catch (const std::runtime_error& error) {
-    throw MeshError(fmt::format("gmsh cannot mesh the recipe: {}", gmsh_complaint(error)));
-  }
+  });
   refine(draft, size, points, 0.5);
   smooth(draft, size);
   return draft;

@@ -197,14 +197,13 @@ Mesh read_open_model() {
 }  // namespace
 
 Mesh read_gmsh(const std::string& path) {
-  try {
+  Mesh mesh;
+  meshing::with_gmsh(fmt::format("mesh file \"{}\"", path), [&] {
     require_mesh_file(path);
-    const meshing::GmshSession session;
     gmsh::open(path);
-    return read_open_model();
-  } catch (const std::runtime_error& error) {  // gmsh's own, and those from above
-    throw MeshError(fmt::format("mesh file \"{}\": {}", path, meshing::gmsh_complaint(error)));
-  }
+    mesh = read_open_model();
+  });
+  return mesh;
 }
 
 }  // namespace crackle

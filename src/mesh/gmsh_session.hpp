@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace crackle::meshing {
 
-/// libgmsh between its initialisation and finalisation: silent, with an empty model. gmsh keeps its
-/// state in globals, so there is one session at a time. Its errors are exceptions of type
-/// std::runtime_error.
-class GmshSession {
- public:
-  GmshSession();
-  ~GmshSession();
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
-
-/// The first line of what gmsh says went wrong.
-std::string gmsh_complaint(const std::exception& error);
+/// Runs an action between gmsh's initialisation and finalisation, with an empty model and no output
+/// to the terminal. gmsh keeps its state in globals: one session at a time.
+/// @param what goes before the message of every error
+/// @throws MeshError for whatever goes wrong in the action
+void with_gmsh(const std::string& what, const std::function<void()>& action);
 
 }  // namespace crackle::meshing

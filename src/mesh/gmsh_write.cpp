@@ -78,8 +78,7 @@ void write_gmsh(const Mesh& mesh, const std::string& path) {
   if (!path.ends_with(".msh")) {
     throw MeshError(fmt::format("mesh file \"{}\": its name has to end in .msh", path));
   }
-  try {
-    const meshing::GmshSession session;
+  meshing::with_gmsh(fmt::format("mesh file \"{}\"", path), [&] {
     gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
     gmsh::option::setNumber("Mesh.Binary", 1);  // as text, gmsh writes 16 digits: one short of exact
     gmsh::option::setNumber("Mesh.SaveAll", 1);
@@ -90,9 +89,7 @@ void write_gmsh(const Mesh& mesh, const std::string& path) {
     add_triangles(mesh, Region::wellbore_core, core_surface, meshing::gmsh_core_name);
     add_curves(mesh);
     gmsh::write(path);
-  } catch (const std::runtime_error& error) {
-    throw MeshError(fmt::format("mesh file \"{}\": {}", path, meshing::gmsh_complaint(error)));
-  }
+  });
 }
 
 }  // namespace crackle
