@@ -92,6 +92,22 @@ struct Dissipation {
   double boundary = 0.0;  ///< radiated through an absorbing boundary
 };
 
+/// A point of a free side (3 t + i: side i of triangle t) that touches another free side, or that
+/// lay behind it when it was first looked at.
+struct ContactPoint {
+  Index side = -1;            ///< that carries the point
+  Index place = 0;            ///< on it: 0 its start, 1 its end, 2 its middle
+  Index target = -1;          ///< side that it touches
+  double depth = 0.0;         ///< of the point behind the target [m]; negative: a gap
+  double offset = 0.0;        ///< depth at which it bears nothing [m]
+  double slip = 0.0;          ///< along the target since it touched [m]
+  double plastic_slip = 0.0;  ///< of the friction spring [m]
+};
+
+struct ContactState {
+  std::vector<ContactPoint> points;  ///< in order of side, place, target
+};
+
 /// Every number that changes during a run, as plain arrays: what a checkpoint saves.
 ///
 /// A triangle has three corners (corner 3 t + i). A node is a group of corners that move together:
@@ -119,6 +135,7 @@ struct State {
   CohesiveElements cohesive;
   std::vector<Index> element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i;
                                        ///< 2 x count() (the zero force) where there is none
+  ContactState contact;
   FluidState fluid;
   Dissipation dissipation;
 
