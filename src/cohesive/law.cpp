@@ -42,10 +42,12 @@ double CohesiveLaw::softening_opening(const CohesiveMaterial& m, double length) 
 double CohesiveLaw::softening_slip(const CohesiveMaterial& m, double length, double normal) const {
   const double strength = shear_strength(m, normal);
   if (m.calibration == Calibration::y_geo) return y_geo_factor() * m.fracture_energy_mode2 / strength;
-  // Energy above residual friction; the elastic branch is taken at zero normal stress.
-  const double drop = std::max(strength + std::min(normal, 0.0) * m.tan_residual, 0.1 * strength);
-  const double peak = (1.0 + curvature()) * m.cohesion / stiffness_of(m, length);
-  return (m.fracture_energy_mode2 - branch_area(curvature()) * m.cohesion * peak) / (softening_integral() * drop);
+  // Energy above residual friction, the elastic branch included.
+  const double residual = -std::min(normal, 0.0) * m.tan_residual;
+  const double drop = std::max(strength - residual, 0.1 * strength);
+  const double peak = (1.0 + curvature()) * strength / stiffness_of(m, length);
+  const double rise = (branch_area(curvature()) * strength - residual) * peak;
+  return std::max(m.fracture_energy_mode2 - rise, 0.01 * m.fracture_energy_mode2) / (softening_integral() * drop);
 }
 
 double CohesiveLaw::longest_edge(const CohesiveMaterial& m) const {

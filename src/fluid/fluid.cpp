@@ -124,6 +124,8 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
     }
   }
   if (reached.empty()) return;
+  measure(state);
+  const double energy_before = measured_energy(state);
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const Index e = reached[i];
     if (f.cavity_of_edge[at(e)] >= 0) continue;
@@ -158,6 +160,18 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
     }
   }
   rebuild(state);
+  // Fluid that expands into a void which it had not reached does no work on the rock: that energy is
+  // lost in the rush, as viscous dissipation.
+  state.dissipation.viscous += std::max(0.0, energy_before - measured_energy(state));
+}
+
+double Fluid::measured_energy(const State& state) const {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < state.fluid.cavities.size(); ++c) {
+    const double mass = state.fluid.cavities[c].mass;
+    if (mass > 0.0 && volume_[c] > 0.0) sum += fluid_.energy(mass, volume_[c], fluid_.pressure(mass, volume_[c]));
+  }
+  return sum;
 }
 
 void Fluid::advance(State& state, double dt) {

@@ -31,8 +31,14 @@ class CaseError : public Error {
  private:
   static std::string place(const std::string& file, int line, int column) {
     std::string at = file;
-    if (line > 0) at += ":" + std::to_string(line) + ":" + std::to_string(column);
-    return at.empty() ? at : at + ": ";
+    if (line > 0) {
+      at += ':';
+      at += std::to_string(line);
+      at += ':';
+      at += std::to_string(column);
+    }
+    if (!at.empty()) at += ": ";
+    return at;
   }
 };
 

@@ -32,7 +32,8 @@ class Fluid {
   void refill(State& state, double pressure);
 
   /// Lets the fluid into newly broken elements that touch a cavity, and on from there into broken
-  /// elements it had not reached. Cavities that come together become one; mass is conserved.
+  /// elements it had not reached. Cavities that come together become one; mass is conserved. The
+  /// energy that free expansion into them costs is booked as viscous dissipation.
   /// @param broken elements that broke in this step
   void connect(State& state, std::span<const Index> broken);
 
@@ -67,6 +68,7 @@ class Fluid {
     Vec2 gradient;
   };
   void measure(const State& state);
+  double measured_energy(const State& state) const;  // at the volumes last measured
 
   CompressibleFluid fluid_;
   Pump pump_;

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cohesive elements between triangles: energy to pull one edge apart, balance of a split mesh,
+// exchange of the faces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "crackle/cohesive/cohesive.hpp"
+#include "crackle/mesh/mesh.hpp"
+#include "crackle/solid/bulk.hpp"
+
+namespace crackle {
+namespace {
+
+std::shared_ptr<const Mesh> one_edge(double h) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0}, {h, 0}, {0.5 * h, 0.9 * h}, {0.5 * h, -0.9 * h}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  mesh.regions = {Region::rock, Region::rock};
+  build_edges(mesh);
+  return std::make_shared<const Mesh>(mesh);
+}
+
+CohesiveMaterial granite() {
+  const double tan_phi = std::tan(38.0 * std::numbers::pi / 180.0);
+  return {3e6, 24e6, tan_phi, tan_phi, 5.0, 80.0, 120e9, 120e9, Calibration::exact};
+}
+
+// Moves the upper triangle (0) away from the lower one along a unit vector and returns the work done
+// on it per length of the edge [J/m2], and the peak force per length [Pa].
+struct Pull {
+  double work = 0.0, peak = 0.0, booked = 0.0;
+  bool broken = false;
+};
+Pull pull(const std::string& law, Vec2 along, double reach, double turn) {
+  const double h = 3e-3;
+  State state = make_split_state(one_edge(h));
+  insert_all(state);
+  Cohesive cohesive(find_law(law), granite());
+  const double c = std::cos(turn), s = std::sin(turn);
+  const auto rotate = [&](Vec2 v) { return Vec2{c * v.x - s * v.y, s * v.x + c * v.y}; };
+  Pull result;
+  const auto force = [&] {  // on the upper triangle
+    const EndForces& f = state.cohesive.force[0];
+    const bool upper_is_a = state.mesh->edges[static_cast<std::size_t>(state.cohesive.edge[0])].triangle[0] == 0;
+    return (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1);
+  };
+  const int n = 100000;
+  Vec2 before;
+  for (int i = 0; i <= n; ++i) {
+    const Vec2 d = rotate((reach * i / n) * along);
+    for (Index corner = 0; corner < 6; ++corner) {
+      const Vec2 x = state.reference(corner);
+      state.displacement[static_cast<std::size_t>(corner)] = rotate(x) - x + (corner < 3 ? d : Vec2{});
+    }
+    cohesive.add_tractions(state);
+    const Vec2 f = force();
+    const Vec2 step = (1.0 * reach / n) * rotate(along);
+    if (i > 0) result.work -= 0.5 * dot(f + before, step) / h;
+    result.peak = std::max(result.peak, norm(f) / h);
+    before = f;
+  }
+  result.booked = state.dissipation.fracture / h;
+  result.broken = state.cohesive.status[0] == CohesiveStatus::broken;
+  return result;
+}
+
+TEST(CohesiveElement, PulledApartInModeOneGivesItsFractureEnergy) {
+  for (const char* law : {"evans_marathe", "linear"}) {
+    for (const double turn : {0.0, 1.1}) {
+      const Pull p = pull(law, {0, 1}, 2e-5, turn);
+      std::printf("%s, turned %.1f rad: work %.5f, booked %.5f of 5 J/m2, peak %.4f of 3 MPa\n", law, turn, p.work, p.booked,
+                  p.peak / 1e6);
+      EXPECT_TRUE(p.broken);
+      EXPECT_NEAR(p.work, 5.0, 5e-3);
+      EXPECT_NEAR(p.booked, 5.0, 5e-3);
+      EXPECT_NEAR(p.peak, 3e6, 3e3);
+    }
+  }
+}
+
+TEST(CohesiveElement, SlidInModeTwoGivesItsFractureEnergy) {
+  for (const char* law : {"evans_marathe", "linear"}) {
+    const Pull p = pull(law, {1, 0}, 6e-5, 0.0);
+    std::printf("%s: work %.5f, booked %.5f of 80 J/m2, peak %.4f of 24 MPa\n", law, p.work, p.booked, p.peak / 1e6);
+    EXPECT_TRUE(p.broken);
+    EXPECT_NEAR(p.work, 80.0, 8e-2);
+    EXPECT_NEAR(p.booked, 80.0, 8e-2);
+    EXPECT_NEAR(p.peak, 24e6, 24e3);
+  }
+}
+
+TEST(CohesiveElement, RepelsOverlap) {
+  const Pull p = pull("evans_marathe", {0, -1}, 1e-6, 0.0);
+  EXPECT_GT(p.work, 0.0);
+  EXPECT_EQ(p.booked, 0.0);
+}
+
+TEST(CohesiveElement, BalanceHoldsASplitMeshUnderAnyStress) {
+  auto mesh = std::make_shared<const Mesh>(jittered(structured_rectangle({0, 0}, {1, 1}, 12, 12, MeshPattern::cross), 0.2, 7));
+  const Sym2 stress{-7.05e6, -4.9e6, 1.3e6};
+  for (const char* law : {"evans_marathe", "linear"}) {
+    State state = make_split_state(mesh);
+    set_mass(state, 2500);
+    insert_all(state);
+    Bulk bulk(*mesh, isotropic_plane_strain(35e9, 0.27), 2500, stress, {});
+    std::vector<Vec2> forces(3 * mesh->triangles.size());
+    bulk.corner_forces(state, 0, mesh->triangle_count(), forces.data());
+    // the boundary bears its traction
+    for (const Edge& edge : mesh->edges) {
+      if (edge.kind != EdgeKind::outer) continue;
+      const auto i = static_cast<std::size_t>(3 * edge.triangle[0] + edge.side[0]);
+      const auto j = static_cast<std::size_t>(3 * edge.triangle[0] + (edge.side[0] + 1) % 3);
+      const Vec2 t = 0.5 * (stress * right_normal(state.reference(static_cast<Index>(j)) - state.reference(static_cast<Index>(i))));
+      forces[i] += t;
+      forces[j] += t;
+    }
+    Cohesive cohesive(find_law(law), granite());
+    EXPECT_TRUE(cohesive.balance(state, forces).empty());
+    cohesive.add_tractions(state);
+    double worst = 0.0, traction_error = 0.0;
+    for (Index e = 0; e < state.cohesive.count(); ++e) {
+      const Edge& edge = mesh->edges[static_cast<std::size_t>(state.cohesive.edge[static_cast<std::size_t>(e)])];
+      const EndForces& f = state.cohesive.force[static_cast<std::size_t>(e)];
+      for (int end = 0; end < 2; ++end) {
+        const Vec2 g = end == 0 ? f.end0 : f.end1;
+        forces[static_cast<std::size_t>(3 * edge.triangle[0] + (edge.side[0] + end) % 3)] += g;
+        forces[static_cast<std::size_t>(3 * edge.triangle[1] + (edge.side[1] + 1 - end) % 3)] -= g;
+      }
+      // uniform stress: the traction on every edge is σ·n (patch test)
+      const Vec2 d = state.cohesive.direction[static_cast<std::size_t>(e)];
+      const Vec2 t = 0.5 * (stress * right_normal(d));
+      traction_error = std::max({traction_error, norm(f.end0 - t) / norm(t), norm(f.end1 - t) / norm(t)});
+    }
+    for (const Vec2 f : forces) worst = std::max(worst, norm(f));
+    std::printf("%s: unbalanced %.1e N/m of about 1e6, traction error %.1e\n", law, worst, traction_error);
+    EXPECT_LT(worst, 1e-8);
+    EXPECT_LT(traction_error, 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace crackle
