@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/solve/scene_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace crackle {
+namespace {
+
+constexpr double edges_per_zone = 3.0;     // Turon et al. 2007; five are better
+constexpr double modulus_wanted = 0.95;    // of the rock's, under the penalty's compliance
+constexpr double water_viscosity = 1e-3;   // [Pa s]
+constexpr double toughness_regime = 4.8;   // K_m from which pressure is uniform (Dontsov 2017)
+constexpr double crack_of_domain = 0.1;    // half-length over distance to the boundary
+constexpr int wellbore_edges_wanted = 30;  // 1 % of hoop stress, validation A2
+constexpr double damped_step = 0.7;        // of the step without viscosity
+
+using Lines = std::vector<std::string>;
+
+/// A length in the unit that people use for it.
+std::string length(double metres) {
+  return metres < 0.1 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
+}
+std::string megapascal(double pressure) { return fmt::format("{:.4g} MPa", 1e-6 * pressure); }
+std::string gigapascal(double modulus) { return fmt::format("{:.4g} GPa", 1e-9 * modulus); }
+std::string millisecond(double time) { return fmt::format("{:.3g} ms", 1e3 * time); }
+
+void cohesive_zones(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  const CohesiveMaterial& m = scene.cohesive;
+  const double modulus = plane_strain_modulus(scene.stiffness);
+  const auto look = [&](const char* what, double energy, double strength, const char* advice) {
+    const double zone = cohesive_zone(modulus, energy, strength);
+    if (zone >= edges_per_zone * mesh.edge) return;
+    lines.push_back(
+        fmt::format("warning: {} is not resolved: its cohesive zone ({}) spans {:.1f} edges of {}, {:.0f} "
+                    "are needed; take edges "
+                    "of {}, or {}",
+                    what, length(zone), zone / mesh.edge, length(mesh.edge), edges_per_zone,
+                    length(zone / edges_per_zone), advice));
+  };
+  look("opening (mode I)", m.fracture_energy_mode1, m.tensile_strength,
+       "expect too high a breakdown pressure");
+  look("sliding (mode II)", m.fracture_energy_mode2, m.cohesion, "do not rely on how much breaks in shear");
+}
+
+void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  const double modulus = plane_strain_modulus(scene.stiffness);
+  const ModulusRatio ratio = artificial_modulus_ratio(modulus, scene.stiffness.c66, scene.cohesive.penalty,
+                                                      mesh.sum_length2_over_area);
+  if (ratio.young >= modulus_wanted) return;
+  const double enough = 0.5 * mesh.sum_length2_over_area * modulus / (1.0 / modulus_wanted - 1.0);
+  lines.push_back(fmt::format(
+      "warning: cohesive elements make the rock softer than given: E' = {:.0f} % ({} of {}), G = {:.0f} %; "
+      "compare "
+      "with theory at these moduli, or take cohesive.penalty = {} for {:.0f} % (the step falls to {:.2f} of "
+      "this one)",
+      100.0 * ratio.young, gigapascal(ratio.young * modulus), gigapascal(modulus), 100.0 * ratio.shear,
+      gigapascal(enough), 100.0 * modulus_wanted, std::sqrt(scene.cohesive.penalty / enough)));
+}
+
+double largest_rate(const Pump& pump, double end_time) {
+  constexpr int samples = 1000;
+  double rate = 0.0;
+  for (int i = 0; i < samples; ++i) rate = std::max(rate, pump.rate(end_time * (i + 0.5) / samples));
+  return rate;
+}
+
+void pressure_loss(const Scene& scene, double end_time, Lines& lines) {
+  const double rate = largest_rate(scene.pump, end_time);
+  if (!scene.fluid || rate <= 0.0) return;
+  const double modulus = plane_strain_modulus(scene.stiffness);
+  const double tough = toughness(modulus, scene.cohesive.fracture_energy_mode1);
+  const double k = dimensionless_toughness(modulus, tough, water_viscosity, rate);
+  if (k >= toughness_regime) return;
+  lines.push_back(
+      fmt::format("warning: the model's fluid has no viscosity and one pressure throughout; water (1 mPa s) "
+                  "at this rate would lose "
+                  "pressure along the fracture (K_m = {:.2g}; uniform pressure needs {}): take fracture "
+                  "lengths as upper bounds",
+                  k, toughness_regime));
+}
+
+void domain_size(const Scene& scene, const MeshMeasure& mesh, double end_time, Lines& lines) {
+  const WaveSpeeds speed = wave_speeds(scene.stiffness, scene.density);
+  const double back = 2.0 * mesh.half_width / speed.p;
+  if (!scene.absorbing_boundary && back < end_time) {
+    lines.push_back(
+        fmt::format("warning: waves from the wellbore are back from the fixed boundary after {}, the run "
+                    "lasts {}: take a domain "
+                    "of {}, or boundary.outer = \"absorbing\"",
+                    millisecond(back), millisecond(end_time), length(speed.p * end_time)));
+  }
+  const double injected = scene.pump.volume(0.0, end_time);
+  const Onset onset = expected_onset(scene, end_time);
+  if (injected <= 0.0 || !scene.fluid || (onset.expected && onset.end_pressure < onset.wall_pressure)) return;
+  // What the wellbore keeps at the pressure that just holds a fracture open.
+  const PrincipalStress far = principal_stress(scene.stress);
+  const FilledHole hole{mesh.wellbore_area, scene.stiffness.c66, far.mean(), *scene.fluid,
+                        scene.initial_pressure};
+  const double left = injected - std::max(0.0, hole.injected(std::max(-far.largest, scene.initial_pressure)));
+  const double modulus = plane_strain_modulus(scene.stiffness);
+  const double longest = toughness_half_length(
+      modulus, toughness(modulus, scene.cohesive.fracture_energy_mode1), std::max(left, 0.0));
+  const double held = crack_of_domain * mesh.half_width;
+  if (longest <= held) return;
+  lines.push_back(fmt::format(
+      "warning: the injected fluid could hold open a straight fracture of {} on either side; beyond {} (a "
+      "tenth of the "
+      "way to the boundary) the boundary is felt: look at extent_x_m and extent_y_m in summary.json",
+      length(longest), length(held)));
+}
+
+void wellbore_edges(const MeshMeasure& mesh, Lines& lines) {
+  if (mesh.wellbore_edges == 0 || mesh.wellbore_edges >= wellbore_edges_wanted) return;
+  lines.push_back(
+      fmt::format("warning: the wellbore has {} edges, too few for the stress at its wall: take {} or more "
+                  "(smaller mesh.size_fine)",
+                  mesh.wellbore_edges, wellbore_edges_wanted));
+}
+
+void damping(const Scene& scene, const MeshMeasure& mesh, const StableStep& stable, Lines& lines) {
+  if (stable.limit >= damped_step * stable.without_viscosity) return;
+  const double mu = scene.stiffness.c66, lambda = scene.stiffness.c12;
+  const double young = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
+  const double critical = 2.0 * mesh.edge * std::sqrt(young * scene.density);
+  const double ratio = scene.damping.viscosity / critical + scene.damping.ratio;
+  lines.push_back(
+      fmt::format("warning: damping alone cuts the time step from {:.3g} to {:.3g} s and slows fractures: it "
+                  "is {:.3g} times the "
+                  "critical {:.3g} Pa s of edges of {}; take damping.ratio = 0.1 unless you mean it",
+                  stable.without_viscosity, stable.limit, ratio, critical, length(mesh.edge)));
+}
+
+void wall_before_pumping(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  if (mesh.wellbore_edges == 0) return;
+  const double p = scene.fluid ? scene.initial_pressure : 0.0;
+  const PrincipalStress hoop = wall_hoop_stress(scene.stress, p);
+  const CohesiveMaterial& m = scene.cohesive;
+  if (hoop.largest > m.tensile_strength) {
+    lines.push_back(
+        fmt::format("note: the stress alone pulls the wellbore wall apart before pumping: {} along the wall "
+                    "at {} in the wellbore, "
+                    "its tensile strength is {}",
+                    megapascal(hoop.largest), megapascal(p), megapascal(m.tensile_strength)));
+  }
+  // Mohr-Coulomb: −σ_θθ = 2 c √N + N p,  √N = tan φ + √(1 + tan² φ)
+  const double root = m.tan_friction + std::sqrt(1.0 + m.tan_friction * m.tan_friction);
+  const double bears = 2.0 * m.cohesion * root + root * root * p;
+  if (-hoop.smallest > bears) {
+    lines.push_back(
+        fmt::format("note: the stress alone crushes the wellbore wall before pumping (breakouts): {} of "
+                    "compression along the wall, "
+                    "which bears {}; the geostatic stage will take long and break elements",
+                    megapascal(-hoop.smallest), megapascal(bears)));
+  }
+}
+
+void late_onset(const Scene& scene, double end_time, Lines& lines) {
+  const Onset onset = expected_onset(scene, end_time);
+  if (!onset.expected || onset.end_pressure >= onset.wall_pressure) return;
+  lines.push_back(
+      fmt::format("note: the pump reaches {} by the end, below the {} at which the wellbore wall breaks "
+                  "(Hubbert-Willis, 3 S_h - S_H "
+                  "+ f_t): expect no fracture; pump longer or faster",
+                  megapascal(onset.end_pressure), megapascal(onset.wall_pressure)));
+}
+
+}  // namespace
+
+Onset expected_onset(const Scene& scene, double end_time) {
+  Onset onset;
+  const MeshMeasure mesh = measure_mesh(*scene.mesh);
+  const double injected = scene.pump.volume(0.0, end_time);
+  if (!scene.fluid || mesh.wellbore_edges == 0 || injected <= 0.0 || !scene.law) return onset;
+  const FilledHole hole{mesh.wellbore_area, scene.stiffness.c66, principal_stress(scene.stress).mean(),
+                        *scene.fluid, scene.initial_pressure};
+  onset.expected = true;
+  onset.wall_pressure = hubbert_willis_pressure(scene.stress, scene.cohesive.tensile_strength);
+  onset.end_pressure = hole.pressure(injected);
+  onset.time = time_of_volume(scene.pump, std::max(0.0, hole.injected(onset.wall_pressure)), end_time);
+  return onset;
+}
+
+std::string scene_error(const Scene& scene) {
+  if (!scene.law) return {};
+  const MeshMeasure mesh = measure_mesh(*scene.mesh);
+  const double longest = scene.law->longest_edge(scene.cohesive);
+  if (mesh.longest_edge <= longest) return {};
+  return fmt::format(
+      "cohesive.calibration = \"exact\" is not possible on edges longer than {} with cohesive.penalty = {}, "
+      "and the edge "
+      "at ({:.3g}, {:.3g}) m is {} long (its elastic branch alone would take more than the fracture energy): "
+      "take a "
+      "penalty of {}, smaller edges, or calibration = \"y_geo\"",
+      length(longest), gigapascal(scene.cohesive.penalty), mesh.longest_place.x, mesh.longest_place.y,
+      length(mesh.longest_edge), gigapascal(1.01 * scene.cohesive.penalty * mesh.longest_edge / longest));
+}
+
+std::vector<std::string> scene_warnings(const Scene& scene, double end_time, const StableStep& stable) {
+  Lines lines;
+  const MeshMeasure mesh = measure_mesh(*scene.mesh);
+  if (scene.law) {
+    cohesive_zones(scene, mesh, lines);
+    penalty_compliance(scene, mesh, lines);
+    pressure_loss(scene, end_time, lines);
+    wall_before_pumping(scene, mesh, lines);
+  }
+  wellbore_edges(mesh, lines);
+  domain_size(scene, mesh, end_time, lines);
+  damping(scene, mesh, stable, lines);
+  late_onset(scene, end_time, lines);
+  return lines;
+}
+
+}  // namespace crackle
