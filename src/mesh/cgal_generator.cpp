@@ -49,7 +49,7 @@ class Criteria {
     }
   };
 
-  class Is_bad {
+  class Is_bad {  // NOLINT(readability-identifier-naming): CGAL asks for this name
    public:
     explicit Is_bad(const SizeField* size) : size_(size) {}
     CGAL::Mesh_2::Face_badness operator()(const Quality& quality) const {

@@ -45,6 +45,7 @@ int wellbore_edge_count(const MeshRecipe& recipe) {
 std::vector<Vec2> wellbore_polygon(const MeshRecipe& recipe) {
   const int n = wellbore_edge_count(recipe);
   std::vector<Vec2> polygon;
+  polygon.reserve(n);
   for (int k = 0; k < n; ++k) polygon.push_back(0.5 * recipe.wellbore_diameter * direction(k, n));
   return polygon;
 }
