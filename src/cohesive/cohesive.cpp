@@ -103,58 +103,50 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   const std::array<double, 3> slip{w.slip0, w.slip1, 0.5 * (w.slip0 + w.slip1)};
   const std::array<double, 3> weight{length / 6.0, length / 6.0, 4.0 * length / 6.0};
   const bool was_broken = c.status[i] != CohesiveStatus::active;
-  double fracture = 0.0, sliding = 0.0, friction = 0.0;
+  const std::array<CohesivePoint, 3> old = h.point;
   int failed = 0;
   bool yielding = false;
   for (std::size_t q = 0; q < 3; ++q) {
-    CohesivePoint& p = h.point[q];
-    const CohesivePoint old = p;
-    law_->move(material_, length, opening[q], slip[q], p);
-    // Trapezoidal work of the step is the work the integrator does (energies at full steps).
-    const double d_slip = p.slip - old.slip;
-    const double normal_work = 0.5 * (p.normal + old.normal) * (p.opening - old.opening);
-    const double shear_work = 0.5 * (p.shear + old.shear) * d_slip;
-    const double friction_work = 0.5 * (p.friction + old.friction) * d_slip;
-    const double dissipated = normal_work + shear_work + friction_work - (p.stored - old.stored);
-    if (p.damage > 0.0) {
-      const double slid = std::abs(p.plastic_slip - old.plastic_slip) * std::abs(p.friction);
-      const double rubbed = old.damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
-      friction += weight[q] * rubbed;
-      // Never negative: what a step would gain is left to the ledger's residual, where it shows.
-      const double broken = std::max(dissipated - rubbed, 0.0);
-      if (was_broken) {
-        friction += weight[q] * broken;
-      } else {
-        fracture += weight[q] * broken;
-        if (broken > 0.0) {
-          const double share = std::abs(shear_work) / (std::abs(shear_work) + std::abs(normal_work) + 1e-300);
-          sliding += weight[q] * broken * share;
-        }
-      }
-      yielding = true;
+    law_->move(material_, length, opening[q], slip[q], h.point[q]);
+    yielding = yielding || h.point[q].damage > 0.0;
+    failed += h.point[q].damage >= 1.0;
+  }
+  if (!was_broken && failed >= 2) {
+    // The third point gives up at once what it still bears.
+    for (std::size_t q = 0; q < 3; ++q) {
+      h.point[q].damage = 1.0;
+      law_->move(material_, length, opening[q], slip[q], h.point[q]);
     }
-    if (p.damage >= 1.0) ++failed;
+    c.status[i] = CohesiveStatus::broken;
+    h.break_time = state.time;
+  }
+  double fracture = 0.0, sliding = 0.0, friction = 0.0;
+  for (std::size_t q = 0; q < 3; ++q) {
+    const CohesivePoint& p = h.point[q];
+    if (p.damage == 0.0) continue;
+    // Trapezoidal work of the step is the work the integrator does (energies at full steps).
+    const double d_slip = p.slip - old[q].slip;
+    const double normal_work = 0.5 * (p.normal + old[q].normal) * (p.opening - old[q].opening);
+    const double shear_work = 0.5 * (p.shear + old[q].shear) * d_slip;
+    const double friction_work = 0.5 * (p.friction + old[q].friction) * d_slip;
+    const double dissipated = normal_work + shear_work + friction_work - (p.stored - old[q].stored);
+    const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
+    const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
+    // Never negative: what a step would gain is left to the ledger's residual, where it shows.
+    const double broken = std::max(dissipated - rubbed, 0.0);
+    friction += weight[q] * (was_broken ? rubbed + broken : rubbed);
+    if (!was_broken) {
+      fracture += weight[q] * broken;
+      const double share = std::abs(shear_work) / (std::abs(shear_work) + std::abs(normal_work) + 1e-300);
+      sliding += weight[q] * broken * share;
+    }
   }
   if (yielding && h.yield_time < 0.0) {
     h.yield_time = state.time;
     h.kinetic_at_yield = kinetic_energy(state, c.nodes[i]);
   }
-  if (!was_broken) {
-    if (yielding) {
-      h.kinetic_rise = std::max(h.kinetic_rise, kinetic_energy(state, c.nodes[i]) - h.kinetic_at_yield);
-    }
-    if (failed >= 2) {
-      // The traction that the third point still bears is given up at once; its energy is spent.
-      for (std::size_t q = 0; q < 3; ++q) {
-        CohesivePoint& p = h.point[q];
-        const double before = p.stored;
-        p.damage = 1.0;
-        law_->move(material_, length, opening[q], slip[q], p);
-        fracture += weight[q] * std::max(before - p.stored, 0.0);
-      }
-      c.status[i] = CohesiveStatus::broken;
-      h.break_time = state.time;
-    }
+  if (!was_broken && yielding) {
+    h.kinetic_rise = std::max(h.kinetic_rise, kinetic_energy(state, c.nodes[i]) - h.kinetic_at_yield);
   }
   h.fracture_energy += fracture;
   h.sliding_work += sliding;

@@ -41,7 +41,8 @@ class Fluid {
   /// fits the volume with it, and moves the wetted nodes on:
   ///   V(x*) + Δt² s p = (m/ρ₀) exp(−(p − p₀)/K_f),  s = Σ |∂V/∂x_i|² / m_i
   ///   v = v* + Δt p ∂V/∂x / m,  x = x* + Δt² p ∂V/∂x / m
-  /// Stable at the dry step for any K_f. @throws NumericalError on a cavity without volume.
+  /// Stable at the dry step for any K_f. A soft cavity, (ω_f Δt)² = Δt² s K_f/V below 0.1, is pushed by
+  /// the pressure at the step's beginning, which conserves energy; from 0.3 on by that at its end. @throws NumericalError on a cavity without volume.
   void advance(State& state, double dt);
 
   /// Rebuilds what is derived from the state (after a resume).
@@ -69,6 +70,7 @@ class Fluid {
   };
   void measure(const State& state);
   double measured_energy(const State& state) const;  // at the volumes last measured
+  double measured_power(const State& state) const;   // on the rock, at present velocities [W/m]
 
   CompressibleFluid fluid_;
   Pump pump_;
@@ -77,7 +79,7 @@ class Fluid {
   std::vector<Loop> loops_;
   std::vector<std::vector<Index>> slots_;  // per loop: slot of each corner's node in wet_
   std::vector<Wet> wet_;
-  std::vector<double> volume_, compliance_;  // per cavity: V(x), s
+  std::vector<double> volume_, compliance_, push_;  // per cavity: V(x), s, pressure that pushes
   bool leaks_ = false;
 };
 
