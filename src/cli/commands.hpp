@@ -8,17 +8,49 @@
 
 namespace crackle {
 
-/// What `crackle run` and `crackle check` take from the command line.
-struct RunOptions {
+/// What every command that reads a case takes from the command line.
+struct CaseOptions {
   std::string case_file;
-  std::string output;                  ///< run folder; empty: runs/<case name>
   std::vector<std::string> overrides;  ///< --set table.key=value
-  int threads = 0;                     ///< 0: all cores
   std::optional<std::uint64_t> seed;   ///< of the mesh
+};
+
+struct RunOptions : CaseOptions {
+  std::string output;  ///< run folder; empty: runs/<case name>
+  int threads = 0;     ///< 0: all cores
   bool quiet = false;
+};
+
+struct CheckOptions : CaseOptions {
+  int threads = 0;  ///< that the run would have; 0: all cores
+};
+
+struct MeshOptions : CaseOptions {
+  std::string output;  ///< a .msh or .vtu file
+};
+
+struct LawOptions : CaseOptions {  ///< no case file: the granite of AbuAisha et al. (2016)
+  std::string law;
+  std::string mode = "1";        ///< "1", "2" or "mixed"
+  std::string angle = "45 deg";  ///< of the motion from the edge's normal, where mixed
+  std::string normal = "0";      ///< stress across the edge in mode 2
+  std::string edge = "3 mm";     ///< its length
+  int points = 200;              ///< rows of the table
+};
+
+struct CatalogOptions {
+  std::string folder;  ///< of a run
+  std::string format;  ///< "csv", "quakeml", "zmap"; empty: a summary
+  std::string output;  ///< file; empty: the terminal
 };
 
 /// Each command returns the exit code of the program, or throws an Error that carries it.
 int run_command(const RunOptions& options);
+int check_command(const CheckOptions& options);
+int mesh_command(const MeshOptions& options);
+int law_command(const LawOptions& options);
+int list_command();
+int describe_command(const std::string& name);
+int catalog_command(const CatalogOptions& options);
 
 }  // namespace crackle

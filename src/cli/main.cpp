@@ -2,33 +2,162 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 
 #include "commands.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
+#include "load.hpp"
+
+namespace {
+
+using crackle::CaseOptions;
+
+/// --set takes one value each time, so that a case file may follow it.
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Override a value of the case: --set table.key=value")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+void add_case_options(CLI::App& command, CaseOptions& options) {
+  command.add_option("case", options.case_file, "Case file (.toml)")->required()->type_name("FILE");
+  add_overrides(command, options.overrides);
+  command.add_option("--seed", options.seed, "Seed of the mesh")->type_name("N");
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("-j,--threads", threads, "Threads (default: all cores)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+}
+
+/// The command line as CLI11 sees it. Every command's options live as long as this.
+class CommandLine {
+ public:
+  CommandLine() : app_("crackle: hydraulic fracturing of rock in 2D by finite-discrete elements", "crackle") {
+    app_.set_version_flag("--version", std::string("crackle ") + crackle::version);
+    app_.require_subcommand(1);
+    add_run();
+    add_check();
+    add_mesh();
+    add_law();
+    add_names();
+    add_catalog();
+  }
+
+  int run(int argc, char** argv) {
+    if (argc < 2) {
+      throw crackle::CaseError(
+          "say what to do: run, check, mesh, law, list, describe or catalog; see crackle --help");
+    }
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& wish) {  // --help, --version
+      return app_.exit(wish);
+    } catch (const CLI::ParseError& error) {
+      if (argc > 1 && argv[1][0] != '-') require_command(argv[1]);
+      throw crackle::CaseError(one_line(error.what()) + "; see crackle --help");
+    }
+    return code_;
+  }
+
+ private:
+  void add_run() {
+    auto* command = app_.add_subcommand("run", "Run a case");
+    add_case_options(*command, run_);
+    command->add_option("-o,--output", run_.output, "Run folder (default: runs/<case name>)")
+        ->type_name("DIR");
+    add_threads(*command, run_.threads);
+    command->add_flag("-q,--quiet", run_.quiet, "Print errors only");
+    command->callback([this] { code_ = crackle::run_command(run_); });
+  }
+  void add_check() {
+    auto* command =
+        app_.add_subcommand("check", "Say what a run would be: parameters, mesh, time step, cost, warnings");
+    add_case_options(*command, check_);
+    add_threads(*command, check_.threads);
+    command->callback([this] { code_ = crackle::check_command(check_); });
+  }
+  void add_mesh() {
+    auto* command = app_.add_subcommand("mesh", "Write the mesh of a case");
+    add_case_options(*command, mesh_);
+    command->add_option("-o,--output", mesh_.output, "FILE.msh (gmsh) or FILE.vtu (ParaView)")
+        ->required()
+        ->type_name("FILE");
+    command->callback([this] { code_ = crackle::mesh_command(mesh_); });
+  }
+  void add_law() {
+    auto* command = app_.add_subcommand("law", "Traction-separation curve of a cohesive law, as CSV");
+    command->add_option("name", law_.law, "Cohesive law (see crackle list)")->required()->type_name("LAW");
+    command
+        ->add_option("--case", law_.case_file,
+                     "Case with the rock (default: granite of AbuAisha et al. 2016)")
+        ->type_name("FILE");
+    add_overrides(*command, law_.overrides);
+    command->add_option("--mode", law_.mode, "1 (opening), 2 (sliding) or mixed (default: 1)")
+        ->check(CLI::IsMember({"1", "2", "mixed"}))
+        ->type_name("MODE");
+    command
+        ->add_option("--angle", law_.angle,
+                     "Direction of mixed motion: 0 opening, 90 deg sliding (default: 45 deg)")
+        ->type_name("ANGLE");
+    command
+        ->add_option("--normal", law_.normal,
+                     "Stress across the edge in mode 2, compression negative (default: 0)")
+        ->type_name("STRESS");
+    command->add_option("--edge", law_.edge, "Length of the edge (default: 3 mm)")->type_name("LENGTH");
+    command->add_option("--points", law_.points, "Rows (default: 200)")
+        ->check(CLI::Range(2, 1000000))
+        ->type_name("N");
+    command->callback([this] { code_ = crackle::law_command(law_); });
+  }
+  void add_names() {
+    app_.add_subcommand("list", "Laws, models, generators, fields and formats to choose from")
+        ->callback([this] { code_ = crackle::list_command(); });
+    auto* command =
+        app_.add_subcommand("describe", "A law with formula and parameters; keys of a case or of one table");
+    command->add_option("name", name_, "A name of crackle list, a table, a key, or \"case\"")
+        ->required()
+        ->type_name("NAME");
+    command->callback([this] { code_ = crackle::describe_command(name_); });
+  }
+  void add_catalog() {
+    auto* command = app_.add_subcommand("catalog", "Seismic events of a finished run");
+    command->add_option("folder", catalog_.folder, "Run folder")->required()->type_name("DIR");
+    command->add_option("--to", catalog_.format, "csv, quakeml or zmap (default: a summary)")
+        ->type_name("FORMAT");
+    command->add_option("-o,--output", catalog_.output, "File (default: the terminal)")->type_name("FILE");
+    command->callback([this] { code_ = crackle::catalog_command(catalog_); });
+  }
+
+  void require_command(const std::string& word) const {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app_.get_subcommands({})) names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), word) == names.end())
+      throw crackle::unknown_name("command", word, names);
+  }
+  static std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+  }
+
+  CLI::App app_;
+  crackle::RunOptions run_;
+  crackle::CheckOptions check_;
+  crackle::MeshOptions mesh_;
+  crackle::LawOptions law_;
+  crackle::CatalogOptions catalog_;
+  std::string name_;
+  int code_ = 0;
+};
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"crackle: hydraulic fracturing of rock in 2D by finite-discrete elements", "crackle"};
-  app.set_version_flag("--version", std::string("crackle ") + crackle::version);
-  app.require_subcommand(1);
-  int code = 0;
-
-  crackle::RunOptions run;
-  auto* run_app = app.add_subcommand("run", "Run a case");
-  run_app->add_option("case", run.case_file, "Case file (.toml)")->required();
-  run_app->add_option("-o,--output", run.output, "Run folder (default runs/<case name>)");
-  run_app->add_option("--set", run.overrides, "Override a value of the case: table.key=value");
-  run_app->add_option("-j,--threads", run.threads, "Threads (default: all cores)")->check(CLI::PositiveNumber);
-  run_app->add_option("--seed", run.seed, "Seed of the mesh");
-  run_app->add_flag("-q,--quiet", run.quiet, "Print errors only");
-  run_app->callback([&] { code = crackle::run_command(run); });
-
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : static_cast<int>(crackle::ExitCode::bad_case);
+    return CommandLine().run(argc, argv);
   } catch (const crackle::Error& error) {
     fmt::print(stderr, "crackle: {}\n", error.what());
     return static_cast<int>(error.code());
@@ -36,5 +165,4 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "crackle: {}\n", error.what());
     return 1;
   }
-  return code;
 }

@@ -21,9 +21,9 @@ namespace crackle {
 
 /// What the warnings need to know of an excavated mesh.
 struct MeshMeasure {
-  double edge = 0.0;                   ///< median interior edge within three radii of the wellbore, or of all [m]
-  double longest_edge = 0.0;           ///< longest interior edge [m]
-  Vec2 longest_place;                  ///< its middle [m]
+  double edge = 0.0;          ///< median interior edge within three radii of the wellbore, or of all [m]
+  double longest_edge = 0.0;  ///< longest interior edge [m]
+  Vec2 longest_place;         ///< its middle [m]
   double sum_length2_over_area = 0.0;  ///< Σ L²/A over interior edges [-]
   int wellbore_edges = 0;
   double wellbore_area = 0.0;  ///< [m2]

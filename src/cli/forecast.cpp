@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "crackle/core/errors.hpp"
+#include "frames.hpp"
+
+namespace crackle {
+namespace {
+
+// Measured on runs of the granite wellbore at the end of 1.68 ms; zlib, bytes a triangle.
+constexpr double frame_base = 44.0, frame_displacement = 47.0, frame_velocity = 47.0, frame_stress = 22.0;
+constexpr double history_row = 280.0;
+constexpr double frame_seconds = 4.6e-6;  // a triangle, most of it zlib
+
+// Where nothing is timed. The geostatic solve grows faster than the mesh (fill of the factor).
+constexpr double typical_core_ns = 40.0;
+constexpr double solve_seconds_at_1e5 = 2.5, solve_growth = 1.6;
+
+constexpr int timed_steps = 24;
+
+/// Wall time [s] that one call takes when nothing else disturbs it: the lower quartile of some.
+template <class Work>
+double undisturbed_seconds(int calls, const Work& work) {
+  std::vector<double> seconds;
+  for (int i = 0; i < calls; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[seconds.size() / 4];
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::int64_t frames_of_run(const Case& scene) {
+  return 1 + static_cast<std::int64_t>(std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9));
+}
+
+double output_of_run(const Case& scene, double triangles) {
+  const auto wanted = [&](const char* name) {
+    const auto& fields = scene.output.fields;
+    return fields.empty() || std::find(fields.begin(), fields.end(), name) != fields.end();
+  };
+  double frame = frame_base;
+  if (wanted("displacement_m")) frame += frame_displacement;
+  if (wanted("velocity_m_s")) frame += frame_velocity;
+  if (wanted("stress_Pa")) frame += frame_stress;
+  return frame * triangles * static_cast<double>(frames_of_run(scene)) +
+         history_row * scene.run.end_time / scene.output.history_every;
+}
+
+Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh) {
+  double dt = scene.run.safety * stable.limit;
+  if (scene.run.time_step > 0.0) {
+    dt = scene.run.time_step;
+    if (dt > stable.limit) {
+      throw CaseError(
+          scene.file, 0, 0,
+          fmt::format("run.time_step = {:.3g} s is above the {}; write \"auto\"", dt, stable.explain(mesh)));
+    }
+  }
+  const double count = std::max(1.0, std::ceil(scene.run.end_time / dt - 1e-9));
+  return {static_cast<std::int64_t>(count), scene.run.end_time / count};
+}
+
+StableStep stable_step_of(const Scene& scene) {
+  State state = scene.law ? make_split_state(scene.mesh) : make_tied_state(scene.mesh);
+  const Bulk bulk(*scene.mesh, scene.stiffness, scene.density, scene.stress, scene.damping);
+  set_mass(state, scene.density);
+  if (!scene.law) return stable_step(state, bulk, nullptr);
+  insert_all(state);
+  const Cohesive cohesive(scene.law, scene.cohesive);
+  return stable_step(state, bulk, &cohesive);
+}
+
+WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const Steps& steps, int threads) {
+  const Index triangles = solver_scene.mesh->triangle_count();
+  WallTime time;
+  time.output = frame_seconds * triangles * static_cast<double>(frames_of_run(scene));
+  if (triangles <= largest_timed_mesh) {
+    // Without stress nothing slips in the geostatic stage, whatever the scene is.
+    Scene probe = solver_scene;
+    probe.stress = {};
+    probe.initial_pressure = 0.0;
+    if (probe.fluid) probe.fluid->reference_pressure = 0.0;
+    const auto start = std::chrono::steady_clock::now();
+    Simulation simulation(std::move(probe));
+    time.start = seconds_since(start);
+    simulation.step(steps.length);  // first touch of the memory
+    const double step = undisturbed_seconds(timed_steps, [&] { simulation.step(steps.length); });
+    const double row =
+        undisturbed_seconds(timed_steps / 4, [&] { simulation.step_and_account(steps.length); });
+    const double rows = std::min(1.0, steps.length / scene.output.history_every);  // a step
+    time.core_ns = 1e9 * (step + rows * std::max(0.0, row - step)) * threads / static_cast<double>(triangles);
+    time.measured = true;
+  } else {
+    time.core_ns = typical_core_ns;
+    time.start = solve_seconds_at_1e5 * std::pow(1e-5 * triangles, solve_growth);
+  }
+  time.steps = 1e-9 * time.core_ns / threads * triangles * static_cast<double>(steps.count);
+  return time;
+}
+
+std::string bytes_text(double bytes) {
+  if (bytes < 1e6) return fmt::format("{:.0f} kB", 1e-3 * bytes);
+  if (bytes < 1e9) return fmt::format("{:.0f} MB", 1e-6 * bytes);
+  return fmt::format("{:.1f} GB", 1e-9 * bytes);
+}
+
+std::string duration_text(double seconds) {
+  const double s = std::round(seconds);
+  if (seconds < 1.0) return "under 1 s";
+  if (s < 60.0) return fmt::format("{:.0f} s", s);
+  if (s < 3600.0) return fmt::format("{:.0f} min {:02.0f} s", std::floor(s / 60.0), std::fmod(s, 60.0));
+  if (s < 48.0 * 3600.0) {
+    return fmt::format("{:.0f} h {:02.0f} min", std::floor(s / 3600.0),
+                       std::floor(std::fmod(s, 3600.0) / 60.0));
+  }
+  return fmt::format("{:.0f} days", s / 86400.0);
+}
+
+}  // namespace crackle

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a run will take: memory, disk, time. Sizes of arrays are counted; what libraries allocate is
+// measured once and written down beside its constant.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "crackle/io/case.hpp"
+#include "crackle/solve/simulation.hpp"
+
+namespace crackle {
+
+/// Largest memory of a run on a mesh of that many triangles [bytes].
+double memory_of_run(double triangles);
+
+/// Memory that this process may still take [bytes], by /proc/meminfo, control group and ulimit;
+/// infinity where none of them says.
+double available_memory();
+
+/// @throws CaseError when a run on the case's mesh would not fit in memory. Nothing is made: the
+/// number of triangles is estimated from the recipe. A mesh file is not looked into.
+void require_memory(const Case& scene);
+/// The same once the number of triangles is known.
+void require_memory(const Case& scene, Index triangles);
+
+/// Size of all frames of a run and its other files [bytes].
+double output_of_run(const Case& scene, double triangles);
+
+/// Number of field frames a run writes.
+std::int64_t frames_of_run(const Case& scene);
+
+/// Steps that a run takes and their length. @throws CaseError when run.time_step is not stable
+struct Steps {
+  std::int64_t count = 0;
+  double length = 0.0;  ///< [s]
+};
+Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh);
+
+/// Stable step of a scene at rest, without its static solve.
+StableStep stable_step_of(const Scene& scene);
+
+/// Wall time of the parts of a run.
+struct WallTime {
+  bool measured = false;  ///< by a few steps of this scene on this machine
+  double core_ns = 0.0;   ///< per triangle and step
+  double start = 0.0;     ///< geostatic stage [s]
+  double steps = 0.0;     ///< [s]
+  double output = 0.0;    ///< [s]
+  double total() const { return start + steps + output; }
+};
+WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const Steps& steps, int threads);
+
+/// Largest mesh [triangles] that wall_time_of_run() times; above, it extrapolates.
+inline constexpr Index largest_timed_mesh = 150000;
+
+/// "1.2 GB", "35 s", "2 h 05 min": for people.
+std::string bytes_text(double bytes);
+std::string duration_text(double seconds);
+
+}  // namespace crackle

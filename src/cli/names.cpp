@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "names.hpp"
+
+#include <algorithm>
+
+#include "crackle/cohesive/law.hpp"
+#include "crackle/io/case.hpp"
+
+namespace crackle {
+
+std::vector<NameGroup> name_groups() {
+  std::vector<NameGroup> groups;
+  groups.push_back({"Cohesive laws", "cohesive.law", {}});
+  for (const auto& law : registered_laws()) groups.back().things.push_back({law->name(), law->description()});
+  groups.push_back(
+      {"Calibrations of their softening length",
+       "cohesive.calibration",
+       {{"exact", "breaking an edge dissipates the fracture energy given"},
+        {"y_geo",
+         "3 G / f as in Y-Geo: evans_marathe then dissipates 1.16 G, and its elastic branch on top"}}});
+  groups.push_back(
+      {"Insertion policies",
+       "cohesive.insertion",
+       {{"all", "every interior edge carries a cohesive element from the start (intrinsic, as Y-Geo)"}}});
+  groups.push_back(
+      {"Fluid models",
+       "fluid.wets",
+       {{"broken",
+         "one pressure in the wellbore and in all broken elements connected to it, no viscosity"}}});
+  groups.push_back(
+      {"Outer boundaries",
+       "boundary.outer",
+       {{"fixed", "held in place; reflects waves"},
+        {"absorbing", "lets waves out, as far as they come in straight (Lysmer and Kuhlemeyer 1969)"}}});
+  groups.push_back({"Mesh generators",
+                    "mesh.generator",
+                    {{"cgal", "constrained Delaunay triangles by CGAL"}, {"gmsh", "the same by gmsh"}}});
+  groups.push_back({"Fields of a frame",
+                    "output.fields",
+                    {{"displacement_m", "of every corner, from the in-situ state"},
+                     {"velocity_m_s", "of every corner"},
+                     {"stress_Pa", "effective, per triangle: xx, yy, xy"},
+                     {"region", "per triangle: 0 rock"}}});
+  groups.push_back({"Catalog formats",
+                    "crackle catalog --to",
+                    {{"csv", "events.csv as it is: local coordinates, SI units"},
+                     {"quakeml", "QuakeML 1.2, longitude and latitude"},
+                     {"zmap", "ten columns for ZMAP, longitude and latitude"}}});
+  return groups;
+}
+
+std::vector<std::string> case_table_names() {
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys()) {
+    if (!key.table.empty() && std::find(names.begin(), names.end(), key.table) == names.end())
+      names.push_back(key.table);
+  }
+  return names;
+}
+
+}  // namespace crackle
