@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
+#include "binary.hpp"
+
+namespace crackle_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(CommandLine, Version) {
+  const Outcome outcome = crackle({"--version"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, testing::MatchesRegex("crackle [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(CommandLine, Help) {
+  const Outcome outcome = crackle({"--help"});
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* command : {"run", "check", "mesh", "law", "list", "describe", "catalog"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(command));
+    EXPECT_EQ(crackle({command, "--help"}).code, 0);
+  }
+}
+
+TEST(CommandLine, WhatItDoesNotKnow) {
+  expect_refusal(crackle({}), 2, "say what to do");
+  expect_refusal(crackle({"chek", "a.toml"}), 2, "did you mean \"check\"?");
+  expect_refusal(crackle({"run"}), 2, "case is required");
+  expect_refusal(crackle({"check", "a.toml", "--frob"}), 2, "--frob");
+  expect_refusal(crackle({"run", "a.toml", "-j", "0"}), 2, "--threads");
+}
+
+TEST(List, HoldsWhatThereIs) {
+  const Outcome outcome = crackle({"list"});
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* name : {"evans_marathe", "linear", "y_geo", "exact", "all", "broken", "absorbing", "cgal",
+                           "gmsh", "velocity_m_s", "quakeml", "zmap", "fluid.pump"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(name));
+  }
+}
+
+TEST(Describe, Law) {
+  const Outcome outcome = crackle({"describe", "evans_marathe"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("0.386307"), HasSubstr("rock.fracture_energy_mode2"), HasSubstr("J/m2")));
+}
+
+TEST(Describe, TableAndCase) {
+  const Outcome table = crackle({"describe", "mesh"});
+  EXPECT_EQ(table.code, 0);
+  EXPECT_THAT(table.out,
+              AllOf(HasSubstr("size_fine"), HasSubstr("(required)"), Not(HasSubstr("young_modulus"))));
+  const Outcome all = crackle({"describe", "case"});
+  EXPECT_THAT(all.out, AllOf(HasSubstr("title"), HasSubstr("young_modulus"), HasSubstr("[fluid.pump]"),
+                             HasSubstr("epoch")));
+}
+
+TEST(Describe, KeyAndChoice) {
+  EXPECT_THAT(crackle({"describe", "rock.density"}).out, HasSubstr("kg/m3"));
+  EXPECT_THAT(crackle({"describe", "absorbing"}).out, HasSubstr("boundary.outer"));
+  expect_refusal(crackle({"describe", "evans"}), 2, "did you mean \"evans_marathe\"?");
+}
+
+class Commands : public CliTest {};
+
+// Every choice that list names is one that a case may hold.
+TEST_F(Commands, ListedChoicesAreAccepted) {
+  const std::string file = write("good.toml", good_case);
+  for (const char* choice :
+       {"cohesive.law=evans_marathe", "cohesive.law=linear", "cohesive.insertion=all", "fluid.wets=broken",
+        "boundary.outer=fixed", "boundary.outer=absorbing", "mesh.generator=cgal", "mesh.generator=gmsh"}) {
+    EXPECT_EQ(crackle({"mesh", file, "--set", choice, "-o", path("a.vtu")}).code, 0) << choice;
+  }
+}
+
+TEST_F(Commands, MeshAndBack) {
+  const std::string file = write("good.toml", good_case);
+  const Outcome made = crackle({"mesh", file, "-o", path("a.msh")});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out,
+              AllOf(HasSubstr("triangles"), HasSubstr("wellbore core"), HasSubstr("smallest angle")));
+  // The file in place of the recipe: the same mesh comes out again.
+  const std::string from_file =
+      write("file.toml", with("size_fine = \"15 mm\"", "size_fine = \"15 mm\"\nfile = \"a.msh\""));
+  const Outcome again = crackle({"mesh", from_file, "-o", path("b.msh")});
+  ASSERT_EQ(again.code, 0) << again.err;
+  const auto counts = [](const std::string& text) {
+    const std::size_t from = text.find(": ");
+    return text.substr(from, text.find('\n') - from);
+  };
+  EXPECT_EQ(counts(made.out), counts(again.out));
+  EXPECT_EQ(read_text(path("a.msh")), read_text(path("b.msh")));
+}
+
+TEST_F(Commands, MeshFollowsItsSeed) {
+  const std::string file = write("good.toml", good_case);
+  for (const char* seed : {"1", "2"}) {
+    ASSERT_EQ(crackle({"mesh", file, "--seed", seed, "-o", path(std::string(seed) + ".vtu")}).code, 0);
+  }
+  ASSERT_EQ(crackle({"mesh", file, "-o", path("default.vtu")}).code, 0);
+  EXPECT_EQ(read_text(path("1.vtu")), read_text(path("default.vtu")));
+  EXPECT_NE(read_text(path("1.vtu")), read_text(path("2.vtu")));
+}
+
+TEST_F(Commands, CheckSaysWhatARunWouldBe) {
+  const std::string file = write("good.toml", good_case);
+  const Outcome outcome = crackle({"check", "-j", "1", file});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const char* part :
+       {"rock.young_modulus", "3.5e+10 Pa (35 GPa)", "0.663225 rad (38 deg)", "fluid.pump.0.rate",
+        "0.13 m2/s", "triangles", "cohesive element", "smallest angle", "stable step", "steps of", "memory",
+        "in 21 frames", "wall time about", "Hubbert-Willis", "E' = 6", "mode II", "the wellbore has 24 edges",
+        "upper bounds"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(part));
+  }
+}
+
+}  // namespace
+}  // namespace crackle_test

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A small run from case to catalog.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "binary.hpp"
+
+namespace crackle_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+using RunCommand = CliTest;
+
+std::int64_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+TEST_F(RunCommand, FromCaseToCatalog) {
+  const std::string file = write("good.toml", good_case), out = path("out");
+  const Outcome run =
+      crackle({"run", file, "-q", "-j", "1", "-o", out, "--set", "output.history_every=0.2 ms"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err + run.out, "") << "quiet";
+  for (const char* name : {"resolved.toml", "history.csv", "events.csv", "events.xml", "fields.pvd",
+                           "summary.json", "run.log"}) {
+    EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
+  }
+
+  const std::string events = read_text(out + "/events.csv");
+  ASSERT_GT(lines(events), 3) << "the case breaks";
+  const Outcome summary = crackle({"catalog", out});
+  EXPECT_EQ(summary.code, 0) << summary.err;
+  EXPECT_THAT(summary.out, AllOf(HasSubstr(std::to_string(lines(events) - 1) + " events"),
+                                 HasSubstr("tensile"), HasSubstr("magnitudes"), HasSubstr("ms")));
+  EXPECT_EQ(crackle({"catalog", out, "--to", "csv"}).out, events);
+  EXPECT_EQ(lines(crackle({"catalog", out, "--to", "zmap"}).out), lines(events) - 1);
+  ASSERT_EQ(crackle({"catalog", out, "--to", "quakeml", "-o", path("a.xml")}).code, 0);
+  EXPECT_EQ(read_text(path("a.xml")), read_text(out + "/events.xml"));
+  expect_refusal(crackle({"catalog", out, "--to", "kml"}), 2, "csv, quakeml or zmap");
+  expect_refusal(crackle({"catalog", out, "--to", "csv", "-o", "/proc/a.csv"}), 2, "/proc/a.csv");
+  expect_refusal(crackle({"catalog", out, "-o", path("b.csv")}), 2, "--to");
+}
+
+// What run resolved is a case that runs to the same.
+TEST_F(RunCommand, ResolvedCaseIsTheCase) {
+  const std::string file = write("good.toml", good_case);
+  const auto run = [&](const std::string& from, const char* to) {
+    return crackle({"run", from, "-q", "-j", "1", "-o", path(to), "--set", "run.end_time=10us"}).code;
+  };
+  ASSERT_EQ(run(file, "a"), 0);
+  ASSERT_EQ(run(path("a/resolved.toml"), "b"), 0);
+  EXPECT_EQ(read_text(path("a/resolved.toml")), read_text(path("b/resolved.toml")));
+  EXPECT_EQ(read_text(path("a/history.csv")), read_text(path("b/history.csv")));
+}
+
+TEST_F(RunCommand, InterruptedRunIsWhole) {
+  const std::string file = write("good.toml", good_case);
+  const Outcome run = crackle({"run", file, "-q", "-j", "1", "-o", path("out"), "--set", "run.end_time=10s",
+                               "--set", "fluid.pump.0.to=0.1ms", "--set", "output.fields_every=5s"},
+                              path("out/fields/fields_000000.vtu"));
+  EXPECT_EQ(run.code, 75) << run.err;
+  EXPECT_THAT(read_text(path("out/summary.json")), HasSubstr("\"interrupted\""));
+  EXPECT_TRUE(std::filesystem::exists(path("out/fields/fields_000001.vtu"))) << "where it was stopped";
+}
+
+}  // namespace
+}  // namespace crackle_test
