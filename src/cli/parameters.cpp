@@ -51,8 +51,9 @@ std::string parameter_table(const Case& scene) {
     const std::size_t equals = line.find(" = ");
     if (table.empty() || equals == std::string::npos) continue;  // the title stands above the table
     const std::string key = line.substr(0, equals);
-    const auto unit = units.find(table + "." + key);
-    const std::string name = table + (row >= 0 ? fmt::format(".{}", row) : "") + "." + key;
+    const auto unit = units.find(fmt::format("{}.{}", table, key));
+    const std::string name =
+        row < 0 ? fmt::format("{}.{}", table, key) : fmt::format("{}.{}.{}", table, row, key);
     text += fmt::format("  {:<30} {}\n", name,
                         readable(line.substr(equals + 3), unit == units.end() ? "" : unit->second));
   }

@@ -61,7 +61,9 @@ MeshMeasure measure_mesh(const Mesh& mesh) {
   return m;
 }
 
-double plane_strain_modulus(const PlaneStiffness& c) { return c.c11 - c.c12 * c.c12 / c.c11; }
+double plane_strain_modulus(const PlaneStiffness& stiffness) {
+  return stiffness.c11 - stiffness.c12 * stiffness.c12 / stiffness.c11;
+}
 
 double cohesive_zone(double modulus, double fracture_energy, double strength) {
   return 9.0 * std::numbers::pi / 32.0 * modulus * fracture_energy / (strength * strength);

@@ -34,11 +34,12 @@ MeshMeasure measure_mesh(const Mesh& mesh);
 /// E' = E/(1 − ν²) of an isotropic plane-strain stiffness [Pa].
 double plane_strain_modulus(const PlaneStiffness& stiffness);
 
+/// Here and below `modulus` is E' [Pa].
 /// Length of the cohesive zone [m] of a mode with a fracture energy [J/m2] and a strength [Pa].
-double cohesive_zone(double plane_strain_modulus, double fracture_energy, double strength);
+double cohesive_zone(double modulus, double fracture_energy, double strength);
 
 /// Fracture toughness K_Ic [Pa √m].
-double toughness(double plane_strain_modulus, double fracture_energy_mode1);
+double toughness(double modulus, double fracture_energy_mode1);
 
 /// Mean, half difference and principal values of a plane stress state [Pa].
 struct PrincipalStress {
@@ -66,17 +67,17 @@ struct FilledHole {
   /// Volume [m2] at reference density to pump in for a pressure [Pa].
   double injected(double pressure) const;
   /// Pressure [Pa] after pumping in a volume [m2]; the inverse of injected().
-  double pressure(double injected) const;
+  double pressure(double volume) const;
 };
 
 /// First time [s] by which the pump has delivered a volume [m2]; infinity if not by `end_time`.
 double time_of_volume(const Pump& pump, double volume, double end_time);
 
 /// Half-length [m] of a straight fracture that holds a volume [m2] of fluid without viscosity.
-double toughness_half_length(double plane_strain_modulus, double toughness, double volume);
+double toughness_half_length(double modulus, double toughness, double volume);
 
 /// K_m: below 0.70 viscosity rules the fracture, above 4.80 toughness does and pressure is uniform.
 /// @param viscosity [Pa s] @param rate of the pump, both wings together [m2/s]
-double dimensionless_toughness(double plane_strain_modulus, double toughness, double viscosity, double rate);
+double dimensionless_toughness(double modulus, double toughness, double viscosity, double rate);
 
 }  // namespace crackle

@@ -108,7 +108,7 @@ TEST(SceneWarnings, FewWellboreEdges) {
   recipe.width = recipe.height = 2.0;
   recipe.wellbore_diameter = 0.1;
   recipe.wellbore_segments = 12;
-  recipe.size_fine = 0.02;
+  recipe.size_fine = 0.03;
   recipe.fine_radius = 0.1;
   recipe.size_coarse = 0.2;
   s.mesh = std::make_shared<const Mesh>(excavate(generate_mesh(recipe)));
