@@ -3,6 +3,7 @@
 #pragma once
 
 #include "crackle/mesh/mesh.hpp"
+#include "random.hpp"
 #include "size_field.hpp"
 
 namespace crackle::meshing {
@@ -33,7 +34,8 @@ void subdivide(Draft& draft, const SizeField& size);
 /// Fills the plane between the segments with points and triangles (Delaunay refinement), starting
 /// from given points.
 /// @param spacing start points nearer than this to another point are left out [wanted edge lengths]
-void refine(Draft& draft, const SizeField& size, const std::vector<Vec2>& start, double spacing);
+void refine(Draft& draft, const SizeField& size, const std::vector<Vec2>& start, double spacing,
+            Random& random);
 
 /// Replaces the triangles by the constrained Delaunay triangulation of the points.
 void triangulate(Draft& draft);

@@ -122,7 +122,8 @@ Draft make_gmsh_draft(const MeshRecipe& recipe) {
     gmsh::model::mesh::generate(2);
     points = read_points(size, recipe.seed);
   });
-  refine(draft, size, points, 0.5);
+  Random random(recipe.seed);
+  refine(draft, size, points, 0.5, random);
   smooth(draft, size);
   return draft;
 }

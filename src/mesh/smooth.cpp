@@ -16,12 +16,12 @@
 namespace crackle::meshing {
 namespace {
 
-constexpr int relaxing_sweeps = 12;
+constexpr int relaxing_sweeps = 2;  // more would make rows of equilateral triangles along the walls
 constexpr int mending_sweeps = 20;  // at most; it ends when nothing is left to mend
 
 // What a triangle should fulfil. An equilateral one has 60 degrees, 0.866 and 1.
-constexpr double wanted_sine2 = 0.3290;      // sin^2 of its smallest angle: 35 degrees
-constexpr double wanted_height = 0.57;       // its smallest height over the wanted edge length
+constexpr double wanted_sine2 = 0.2808;      // sin^2 of its smallest angle: 32 degrees
+constexpr double wanted_height = 0.50;       // its smallest height over the wanted edge length
 constexpr double wanted_longest_edge = 1.5;  // over the wanted edge length
 
 /// Squares of a triangle's measures; doubled_area <= 0 when it is turned over.
@@ -90,7 +90,7 @@ std::vector<Index> free_points(const Draft& draft) {
 
 /// One sweep over the free points: each sees where those before it have gone.
 void relax(Draft& draft, const SizeField& size, const std::vector<Index>& free) {
-  constexpr double no_worry = 0.3455;  // sin^2 of 36 degrees: below, an angle must not get smaller
+  constexpr double no_worry = 0.2966;  // sin^2 of 33 degrees: below, an angle must not get smaller
   const Stars stars(draft);
   for (const Index v : free) {
     const Vec2 here = draft.points[v];
