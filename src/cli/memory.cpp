@@ -67,11 +67,12 @@ double number_in(const char* path) {
 void refuse_if_too_large(const Case& scene, double triangles, const char* about) {
   const double needed = memory_of_run(triangles), available = available_memory();
   if (needed <= available) return;
-  throw CaseError(
-      scene.file, 0, 0,
-      fmt::format("a mesh of {}{:.0f} thousand triangles needs {} of memory and {} are available: increase "
-                  "mesh.size_fine, or reduce mesh.fine_radius or mesh.size_coarse",
-                  about, 1e-3 * triangles, bytes_text(needed), bytes_text(available)));
+  const std::string count = triangles < 1e6 ? fmt::format("{:.0f} thousand", 1e-3 * triangles)
+                                            : fmt::format("{:.0f} million", 1e-6 * triangles);
+  throw CaseError(scene.file, 0, 0,
+                  fmt::format("a mesh of {}{} triangles needs {} of memory and {} are available: increase "
+                              "mesh.size_fine, or reduce mesh.fine_radius or mesh.size_coarse",
+                              about, count, bytes_text(needed), bytes_text(available)));
 }
 
 }  // namespace
