@@ -40,29 +40,86 @@ inline EndForces end_forces(Vec2 t, double sixth, double n0, double s0, double n
   return {{p0 * t.y + q0 * t.x, -p0 * t.x + q0 * t.y}, {p1 * t.y + q1 * t.x, -p1 * t.x + q1 * t.y}};
 }
 
-CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* nodes, const Vec2* direction,
-                                     const std::array<double, 4>* offset, FastMaterial m, Index begin, Index end,
-                                     EndForces* force, std::uint8_t* beyond) {
-  const double f_t = early * m.tensile_strength;
+// The fast loop works on chunks that are first laid out component by component, so that it vectorises.
+constexpr int chunk = 64;
+struct Chunk {
+  double ax0[chunk], ay0[chunk], ax1[chunk], ay1[chunk], bx0[chunk], by0[chunk], bx1[chunk], by1[chunk];
+  double dx[chunk], dy[chunk], inverse_length[chunk];
+  double o0[chunk], s0[chunk], o1[chunk], s1[chunk];
+  double fx0[chunk], fy0[chunk], fx1[chunk], fy1[chunk];
+  double beyond[chunk];
+};
+
+inline void evaluate_chunk(Chunk& c, FastMaterial m, int count) {
+  const double limit = early * (1.0 + m.curvature);
+  const double quarter = m.curvature / 4.0;
+  const double quarter_tension = quarter / m.tensile_strength;
 #pragma omp simd
-  for (Index i = begin; i < end; ++i) {
-    const EndSeparation w = separate(u, nodes[i], direction[i], offset[i]);
-    const double length = std::sqrt(direction[i].x * direction[i].x + direction[i].y * direction[i].y);
-    const double k = m.penalty / length;
-    const double om = 0.5 * (w.opening0 + w.opening1), sm = 0.5 * (w.slip0 + w.slip1);
-    const ElasticTraction e0 =
-        elastic_traction(k, m.curvature, m.tensile_strength, m.cohesion, m.tan_friction, w.opening0, w.slip0);
-    const ElasticTraction em = elastic_traction(k, m.curvature, m.tensile_strength, m.cohesion, m.tan_friction, om, sm);
-    const ElasticTraction e1 =
-        elastic_traction(k, m.curvature, m.tensile_strength, m.cohesion, m.tan_friction, w.opening1, w.slip1);
-    // Near its strength already? Compared with the early strength at both ends; the middle lies between.
-    const double limit = 1.0 + m.curvature;
-    const double pull = k * std::max(w.opening0, w.opening1);
-    const double push0 = k * std::abs(w.slip0), push1 = k * std::abs(w.slip1);
-    const double c0 = early * limit * (m.cohesion - std::min(k * w.opening0, 0.0) * m.tan_friction);
-    const double c1 = early * limit * (m.cohesion - std::min(k * w.opening1, 0.0) * m.tan_friction);
-    beyond[i] = static_cast<std::uint8_t>((pull > limit * f_t) | (push0 > c0) | (push1 > c1));
-    force[i] = end_forces(w.direction, length / 6.0, e0.normal, e0.shear, em.normal, em.shear, e1.normal, e1.shear);
+  for (int i = 0; i < count; ++i) {
+    const double inverse = c.inverse_length[i];
+    const double length = (c.dx[i] * c.dx[i] + c.dy[i] * c.dy[i]) * inverse;
+    // Direction of the middle line, made a unit vector by two Newton steps from the reference length:
+    // exact to round-off for the strains of intact rock.
+    const double ex = c.dx[i] + 0.5 * ((c.ax1[i] + c.bx1[i]) - (c.ax0[i] + c.bx0[i]));
+    const double ey = c.dy[i] + 0.5 * ((c.ay1[i] + c.by1[i]) - (c.ay0[i] + c.by0[i]));
+    const double half = 0.5 * (ex * ex + ey * ey);
+    double r = inverse * (1.5 - half * inverse * inverse);
+    r = r * (1.5 - half * r * r);
+    const double tx = ex * r, ty = ey * r;
+    const double gx0 = c.bx0[i] - c.ax0[i], gy0 = c.by0[i] - c.ay0[i];
+    const double gx1 = c.bx1[i] - c.ax1[i], gy1 = c.by1[i] - c.ay1[i];
+    const double k = m.penalty * inverse;
+    // Elastic tractions at both ends and the middle, as elastic_traction() has them.
+    const double tn0 = k * (gx0 * ty - gy0 * tx + c.o0[i]), ts0 = k * (gx0 * tx + gy0 * ty + c.s0[i]);
+    const double tn1 = k * (gx1 * ty - gy1 * tx + c.o1[i]), ts1 = k * (gx1 * tx + gy1 * ty + c.s1[i]);
+    const double tnm = 0.5 * (tn0 + tn1), tsm = 0.5 * (ts0 + ts1);
+    const double pull0 = tn0 > 0.0 ? tn0 : 0.0, pull1 = tn1 > 0.0 ? tn1 : 0.0, pullm = tnm > 0.0 ? tnm : 0.0;
+    const double n0 = tn0 - quarter_tension * pull0 * pull0;
+    const double n1 = tn1 - quarter_tension * pull1 * pull1;
+    const double nm = tnm - quarter_tension * pullm * pullm;
+    const double strength0 = m.cohesion - m.tan_friction * (n0 < 0.0 ? n0 : 0.0);
+    const double strength1 = m.cohesion - m.tan_friction * (n1 < 0.0 ? n1 : 0.0);
+    const double strengthm = m.cohesion - m.tan_friction * (nm < 0.0 ? nm : 0.0);
+    const double push0 = std::abs(ts0), push1 = std::abs(ts1);
+    const double s0 = ts0 - quarter * ts0 * push0 / strength0;
+    const double s1 = ts1 - quarter * ts1 * push1 / strength1;
+    const double sm = tsm - quarter * tsm * std::abs(tsm) / strengthm;
+    // Near its strength already? The middle lies between the ends.
+    const double near_tension = (pull0 > pull1 ? pull0 : pull1) - limit * m.tensile_strength;
+    const double near0 = push0 - limit * strength0, near1 = push1 - limit * strength1;
+    const double near_shear = near0 > near1 ? near0 : near1;
+    c.beyond[i] = near_tension > near_shear ? near_tension : near_shear;
+    const double sixth = length * (1.0 / 6.0);
+    const double p0 = sixth * (n0 + 2.0 * nm), q0 = sixth * (s0 + 2.0 * sm);
+    const double p1 = sixth * (n1 + 2.0 * nm), q1 = sixth * (s1 + 2.0 * sm);
+    c.fx0[i] = p0 * ty + q0 * tx;
+    c.fy0[i] = q0 * ty - p0 * tx;
+    c.fx1[i] = p1 * ty + q1 * tx;
+    c.fy1[i] = q1 * ty - p1 * tx;
+  }
+}
+
+CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* nodes, const Vec2* direction,
+                                     const double* inverse_length, const std::array<double, 4>* offset,
+                                     FastMaterial m, Index begin, Index end, EndForces* force, std::uint8_t* beyond) {
+  Chunk c;
+  for (Index first = begin; first < end; first += chunk) {
+    const int count = std::min<Index>(chunk, end - first);
+    for (int i = 0; i < count; ++i) {
+      const std::array<Index, 4>& n = nodes[first + i];
+      const Vec2 a0 = u[n[0]], a1 = u[n[1]], b0 = u[n[2]], b1 = u[n[3]];
+      c.ax0[i] = a0.x, c.ay0[i] = a0.y, c.ax1[i] = a1.x, c.ay1[i] = a1.y;
+      c.bx0[i] = b0.x, c.by0[i] = b0.y, c.bx1[i] = b1.x, c.by1[i] = b1.y;
+      c.dx[i] = direction[first + i].x, c.dy[i] = direction[first + i].y;
+      c.inverse_length[i] = inverse_length[first + i];
+      const std::array<double, 4>& o = offset[first + i];
+      c.o0[i] = o[0], c.s0[i] = o[1], c.o1[i] = o[2], c.s1[i] = o[3];
+    }
+    evaluate_chunk(c, m, count);
+    for (int i = 0; i < count; ++i) {
+      force[first + i] = {{c.fx0[i], c.fy0[i]}, {c.fx1[i], c.fy1[i]}};
+      beyond[first + i] = c.beyond[i] > 0.0;
+    }
   }
 }
 
@@ -172,8 +229,8 @@ void Cohesive::add_tractions(State& state) {
                           material_.tan_friction};
   std::vector<Index> first_beyond(at(block_count(c.count())), 0);
   for_each_block(c.count(), [&](Index begin, Index end, Index block) {
-    elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.offset.data(), fast, begin,
-                     end, c.force.data(), beyond_.data());
+    elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.inverse_length.data(), c.offset.data(),
+                     fast, begin, end, c.force.data(), beyond_.data());
     Index any = 0;
     for (Index i = begin; i < end; ++i) any += beyond_[at(i)] && c.history_of[at(i)] < 0;
     first_beyond[at(block)] = any;

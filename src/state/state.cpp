@@ -87,6 +87,7 @@ void insert_all(State& state) {
     elements.nodes.push_back({state.node_of_corner[at(a0)], state.node_of_corner[at(a1)],
                               state.node_of_corner[at(b0)], state.node_of_corner[at(b1)]});
     elements.direction.push_back(state.reference(a1) - state.reference(a0));
+    elements.inverse_length.push_back(1.0 / norm(elements.direction.back()));
     state.element_on_side[at(a0)] = 2 * element;
     state.element_on_side[at(b1)] = 2 * element + 1;
   }

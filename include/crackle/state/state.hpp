@@ -60,6 +60,7 @@ struct CohesiveElements {
   std::vector<Index> edge;                      ///< of the mesh
   std::vector<std::array<Index, 4>> nodes;      ///< a0, a1, b0, b1: faces a and b at ends 0 and 1
   std::vector<Vec2> direction;                  ///< end1 − end0 in the reference state [m]
+  std::vector<double> inverse_length;           ///< of direction [1/m]
   std::vector<std::array<double, 4>> offset;    ///< opening0, slip0, opening1, slip1 that make the traction borne at insertion [m]
   std::vector<EndForces> force;                 ///< of the last evaluation; one more at the end, zero
   std::vector<CohesiveStatus> status;
