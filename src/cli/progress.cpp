@@ -19,9 +19,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double end_time, std::int64_t steps, bool quiet)
+Progress::Progress(double end_time, bool quiet)
     : end_time_(end_time),
-      steps_(steps),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(std::chrono::steady_clock::now()),
@@ -36,7 +35,7 @@ void Progress::show(const Now& now) {
     print(now, false);
     return;
   }
-  const int percent = static_cast<int>(100.0 * static_cast<double>(now.step) / static_cast<double>(steps_)) / 5 * 5;
+  const int percent = static_cast<int>(100.0 * now.time / end_time_ + 1e-9) / 5 * 5;
   if (percent == percent_) return;
   percent_ = percent;
   print(now, false);
@@ -47,7 +46,7 @@ void Progress::finish(const Now& now) {
 }
 
 void Progress::print(const Now& now, bool last) {
-  const double share = static_cast<double>(now.step) / static_cast<double>(steps_);
+  const double share = now.time / end_time_;
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::string left = last ? fmt::format("took {}", duration(wall))
                            : share > 0.005 ? fmt::format("{} left", duration(wall * (1.0 - share) / share))

@@ -17,7 +17,7 @@ class Progress {
     std::int64_t broken = 0;     ///< cohesive elements
   };
 
-  Progress(double end_time, std::int64_t steps, bool quiet);
+  Progress(double end_time, bool quiet);
   void show(const Now& now);
   /// Ends the bar's line.
   void finish(const Now& now);
@@ -26,7 +26,6 @@ class Progress {
   void print(const Now& now, bool last);
 
   double end_time_;
-  std::int64_t steps_;
   bool quiet_, terminal_;
   int percent_ = -1;
   std::chrono::steady_clock::time_point start_, last_;

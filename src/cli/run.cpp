@@ -16,7 +16,10 @@
 #include "crackle/core/version.hpp"
 #include "crackle/io/case.hpp"
 #include "crackle/io/output.hpp"
+#include "crackle/solve/scene_warnings.hpp"
+#include "forecast.hpp"
 #include "frames.hpp"
+#include "load.hpp"
 #include "progress.hpp"
 #include "scene.hpp"
 
@@ -75,6 +78,21 @@ class Tally {
   double late_, late_sum_ = 0.0, late_time_ = 0.0;
 };
 
+// Says when an output at regular times is due: at the step nearest to each.
+class Due {
+ public:
+  explicit Due(double interval) : interval_(interval) {}
+  bool is(double time, double dt) {
+    if (time + 0.5 * dt < interval_ * static_cast<double>(next_)) return false;
+    next_ = static_cast<std::int64_t>(std::floor((time + 0.5 * dt) / interval_)) + 1;
+    return true;
+  }
+
+ private:
+  double interval_;
+  std::int64_t next_ = 0;
+};
+
 HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tally, double time, double dt, double pressure) {
   HistoryRow row;
   row.time = time;
@@ -104,9 +122,8 @@ HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tall
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (options.seed) overrides.push_back(fmt::format("mesh.seed={}", *options.seed));
-  const Case scene = read_case(options.case_file, overrides);
+  const Case scene = load_case(options.case_file, options.overrides, options.seed);
+  require_memory(scene);
   const std::string path = options.output.empty()
                                ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()
                                : options.output;
@@ -122,14 +139,18 @@ int run_command(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   auto mesh = std::make_shared<const Mesh>(excavate(make_mesh(scene)));
   say(fmt::format("mesh: {} triangles, {} vertices ({:.1f} s)", mesh->triangle_count(), mesh->vertex_count(), seconds_since(start)));
+  require_memory(scene, mesh->triangle_count());  // known only now for a mesh from a file
+  const Scene solver_scene = make_scene(scene, mesh);
+  if (const std::string error = scene_error(solver_scene); !error.empty()) throw CaseError(scene.file, 0, 0, error);
   const auto settle_start = std::chrono::steady_clock::now();
-  Simulation simulation(make_scene(scene, mesh));
+  Simulation simulation(solver_scene);
   say(fmt::format("geostatic stage and excavation: unbalanced force {:.1e} of the largest{} ({:.1f} s)", simulation.imbalance(),
                   simulation.geostatic_slips() > 0
                       ? fmt::format(", {} elements slipped or broke and came to rest", simulation.geostatic_slips())
                       : "",
                   seconds_since(settle_start)));
   say(simulation.stable().explain(*mesh));
+  for (const std::string& line : scene_warnings(solver_scene, scene.run.end_time, simulation.stable())) say(line);
 
   double dt = scene.run.safety * simulation.stable().limit;
   if (scene.run.time_step > 0.0) {
@@ -144,11 +165,6 @@ int run_command(const RunOptions& options) {
   say(fmt::format("{} steps of {:.3g} s on {} threads", steps, dt, threads));
 
   folder.write_resolved(scene);
-  const auto every = [&](double interval) {
-    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(interval / dt)));
-  };
-  const std::int64_t history_every = every(scene.output.history_every);
-  const std::int64_t fields_every = every(scene.output.fields_every);
   const auto write_frame = [&] {
     folder.write_frame(field_frame(simulation, scene.output.fields), fracture_frame(simulation));
   };
@@ -157,7 +173,7 @@ int run_command(const RunOptions& options) {
   std::signal(SIGTERM, interrupt);
   Tally tally(scene.run.end_time);
   std::vector<SeismicEvent> events;
-  Progress progress(scene.run.end_time, steps, options.quiet);
+  Progress progress(scene.run.end_time, options.quiet);
   const auto now = [&] {
     return Progress::Now{simulation.state().time, simulation.wellbore_pressure(), simulation.state().step, tally.broken()};
   };
@@ -187,28 +203,35 @@ int run_command(const RunOptions& options) {
     return summary;
   };
   try {
-    for (std::int64_t step = 0; step < steps && interrupted == 0; ++step) {
-      if (step % fields_every == 0) timed_output(write_frame);
+    Due history(scene.output.history_every), fields(scene.output.fields_every);
+    while (interrupted == 0) {
       const double time = simulation.state().time;
+      const double left = scene.run.end_time - time;
+      if (left <= 0.5e-9 * scene.run.end_time) break;
+      // Shorter than planned where faces have come into general contact, and to land on the end.
+      double now_dt = std::min(dt, scene.run.safety * simulation.stable_limit());
+      const bool last = left <= now_dt * (1.0 + 1e-9);
+      if (last) now_dt = left;
+      if (fields.is(time, now_dt)) timed_output(write_frame);
       const double pressure = simulation.wellbore_pressure();
-      if (step % history_every == 0 || step + 1 == steps) {
-        const Energies e = simulation.step_and_account(dt);
+      if (history.is(time, now_dt) || last) {
+        const Energies e = simulation.step_and_account(now_dt);
         tally.residual(e.residual);
-        folder.append_history(history_row(simulation, e, tally, time, dt, pressure));
+        folder.append_history(history_row(simulation, e, tally, time, now_dt, pressure));
         if (e.residual > 1e-2) {
           throw NumericalError(fmt::format("energy residual {:.3g} passes 1e-2 at step {}, time {:.6g} s, step size {:.3g} s "
                                            "(stable: {:.3g} s): take a smaller run.safety",
-                                           e.residual, step, time, dt, simulation.stable().limit));
+                                           e.residual, simulation.state().step, time, now_dt, simulation.stable_limit()));
         }
       } else {
-        simulation.step(dt);
+        simulation.step(now_dt);
       }
       for (const SeismicEvent& e : simulation.new_events()) {
         folder.append_event(e);
         events.push_back(e);
         tally.event(e);
       }
-      tally.pressure(time, pressure, dt);
+      tally.pressure(time, pressure, now_dt);
       progress.show(now());
     }
   } catch (const NumericalError& error) {

@@ -57,6 +57,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.cohesive.penalty = scene.cohesive.penalty;
   s.cohesive.tangential_penalty = scene.contact.tangential_penalty;
   s.cohesive.calibration = scene.cohesive.calibration == "y_geo" ? Calibration::y_geo : Calibration::exact;
+  s.contact = {scene.contact.normal_penalty, scene.contact.tangential_penalty, s.cohesive.tan_residual};
   s.absorbing_boundary = scene.boundary.outer == "absorbing";
   if (scene.wellbore.diameter > 0.0 || !scene.fluid.pump.empty()) {
     s.fluid = CompressibleFluid{scene.fluid.bulk_modulus, scene.fluid.density, scene.fluid.initial_pressure};

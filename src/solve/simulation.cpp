@@ -52,6 +52,7 @@ Simulation::Simulation(Scene scene)
       if (cut[at(state_.cohesive.edge[at(i)])]) cohesive_->cut(state_, i);
     }
   }
+  if (scene_.contact.normal_penalty > 0.0) contact_.emplace(state_, scene_.contact);
   corner_force_.resize(state_.node_of_corner.size());
   for (Index n = 0; n < state_.node_count(); ++n) {
     if (state_.node_size[at(n)] > 1) shared_nodes_.push_back(n);
@@ -162,6 +163,13 @@ void Simulation::relax() {
                                    most, geostatic_slips_));
 }
 
+double Simulation::stable_limit() const {
+  const double contact = contact_ ? contact_->largest_frequency_squared(state_) : 0.0;
+  if (contact == 0.0) return stable_.limit;
+  const double alone = 2.0 / stable_.limit;
+  return 2.0 / std::sqrt(alone * alone + contact);
+}
+
 double Simulation::wellbore_pressure() const {
   return state_.fluid.cavities.empty() ? 0.0 : state_.fluid.cavities.front().pressure;
 }
@@ -207,6 +215,10 @@ void Simulation::advance(double dt, Energies* account) {
     cohesive_->add_tractions(state_);
     stopwatch_.lap(Stopwatch::cohesive);
   }
+  if (contact_) {
+    contact_->update(state_);
+    stopwatch_.lap(Stopwatch::contact);
+  }
   if (account != nullptr) {
     *account = potential_energies();
     velocity_before_ = state_.velocity;
@@ -218,6 +230,7 @@ void Simulation::advance(double dt, Energies* account) {
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
     stopwatch_.lap(Stopwatch::fluid);
   }
+  if (contact_) contact_->apply(state_, dt);
   if (boundary_) boundary_->apply(state_, dt);
   move_nodes(dt);
   stopwatch_.lap(Stopwatch::rock);
@@ -253,6 +266,7 @@ Energies Simulation::potential_energies() const {
   Energies e;
   e.strain = bulk_.strain_energy(state_) - reference_.strain;
   if (cohesive_) e.cohesive = cohesive_->stored_energy(state_) - reference_.cohesive;
+  if (contact_) e.cohesive += contact_->stored_energy(state_);
   if (fluid_) e.fluid = fluid_->energy(state_) - reference_.fluid;
   e.fracture = state_.dissipation.fracture;
   e.friction = state_.dissipation.friction;

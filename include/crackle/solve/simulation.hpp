@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crackle/cohesive/cohesive.hpp"
+#include "crackle/contact/general_contact.hpp"
 #include "crackle/fluid/fluid.hpp"
 #include "crackle/seismic/event.hpp"
 #include "crackle/solid/bulk.hpp"
@@ -26,6 +27,7 @@ struct Scene {
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
   CohesiveMaterial cohesive;
+  ContactMaterial contact;           ///< of faces that have moved past their partner
   bool absorbing_boundary = false;   ///< outer boundary: absorbing, or fixed
   std::vector<Index> cracks;         ///< mesh edges broken from the start
   std::optional<CompressibleFluid> fluid;
@@ -61,7 +63,10 @@ class Simulation {
   const Bulk& bulk() const { return bulk_; }
   const Cohesive* cohesive() const { return cohesive_ ? &*cohesive_ : nullptr; }
   const Fluid* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
+  /// The stable step at the start, and what limits it.
   const StableStep& stable() const { return stable_; }
+  /// The stable step now [s]: shorter where faces are in general contact.
+  double stable_limit() const;
   const Stopwatch& stopwatch() const { return stopwatch_; }
   /// Elements that were beyond their strength in the geostatic stage; 0: it was elastic.
   Index geostatic_slips() const { return geostatic_slips_; }
@@ -90,6 +95,7 @@ class Simulation {
   State state_;
   Bulk bulk_;
   std::optional<Cohesive> cohesive_;
+  std::optional<GeneralContact> contact_;
   std::optional<Fluid> fluid_;
   std::optional<AbsorbingBoundary> boundary_;
   StableStep stable_;
