@@ -29,7 +29,9 @@ AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& s
 
 void AbsorbingBoundary::apply(State& state, double dt) const {
   for (const Load& load : loads_) {
-    state.velocity[at(load.node)] += (dt * state.inverse_mass[at(load.node)]) * load.force;
+    const Vec2 kick = (dt * state.inverse_mass[at(load.node)]) * load.force;
+    state.velocity[at(load.node)] += kick;
+    state.displacement[at(load.node)] += dt * kick;
     state.dissipation.boundary -= dt * dot(load.force, state.velocity[at(load.node)]);
   }
   for (const Entry& e : entries_) {
@@ -40,8 +42,14 @@ void AbsorbingBoundary::apply(State& state, double dt) const {
     const double fn = vn / (1.0 + w * e.normal_dashpot);
     const Vec2 ft = (1.0 / (1.0 + w * e.tangent_dashpot)) * vt;
     state.dissipation.boundary += dt * (e.normal_dashpot * fn * 0.5 * (vn + fn) + e.tangent_dashpot * 0.5 * dot(ft, vt + ft));
-    v = fn * e.normal + ft;
+    const Vec2 damped = fn * e.normal + ft;
+    state.displacement[at(e.node)] += dt * (damped - v);
+    v = damped;
   }
+}
+
+void AbsorbingBoundary::add_loads(std::span<Vec2> node_forces) const {
+  for (const Load& load : loads_) node_forces[at(load.node)] += load.force;
 }
 
 }  // namespace crackle

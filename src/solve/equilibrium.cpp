@@ -14,8 +14,10 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-std::vector<Vec2> static_displacement(const Mesh& mesh, const Bulk& bulk, const std::vector<char>& fixed,
-                                      std::span<const Vec2> corner_loads) {
+std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_ptr, const Bulk& bulk,
+                                      const std::vector<char>& fixed,
+                                      const std::function<void(const State&, std::span<Vec2>)>& add_loads) {
+  const Mesh& mesh = *mesh_ptr;
   std::vector<Index> unknown(mesh.vertices.size(), -1);
   Index count = 0;
   for (std::size_t v = 0; v < unknown.size(); ++v) {
@@ -44,17 +46,19 @@ std::vector<Vec2> static_displacement(const Mesh& mesh, const Bulk& bulk, const 
       }
     }
   }
-  Eigen::SparseMatrix<double> stiffness(2 * count, 2 * count);
-  stiffness.setFromTriplets(entries.begin(), entries.end());
-  entries.clear();
-  entries.shrink_to_fit();
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(stiffness);
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  {
+    Eigen::SparseMatrix<double> stiffness(2 * count, 2 * count);
+    stiffness.setFromTriplets(entries.begin(), entries.end());
+    std::vector<Eigen::Triplet<double>>().swap(entries);
+    solver.compute(stiffness);
+  }
   if (solver.info() != Eigen::Success) {
     throw NumericalError("static equilibrium: the stiffness matrix is singular; is some part of the rock held by "
                          "nothing (no outer boundary, or a loose block)?");
   }
 
-  State tied = make_tied_state(std::make_shared<const Mesh>(mesh));
+  State tied = make_tied_state(mesh_ptr);
   tied.strain_rate.assign(mesh.triangles.size(), {});
   std::vector<Vec2> forces(3 * mesh.triangles.size());
   Eigen::VectorXd residual(2 * count);
@@ -63,13 +67,13 @@ std::vector<Vec2> static_displacement(const Mesh& mesh, const Bulk& bulk, const 
     for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index) {
       bulk.corner_forces(tied, begin, end, forces.data() + 3 * begin);
     });
+    if (add_loads) add_loads(tied, forces);
     residual.setZero();
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const Index u = unknown[at(mesh.triangles[k / 3][k % 3])];
       if (u < 0) continue;
-      const Vec2 f = corner_loads.empty() ? forces[k] : forces[k] + corner_loads[k];
-      residual[2 * u] += f.x;
-      residual[2 * u + 1] += f.y;
+      residual[2 * u] += forces[k].x;
+      residual[2 * u + 1] += forces[k].y;
     }
     const double norm_now = residual.norm();
     if (pass == 0) first = norm_now;

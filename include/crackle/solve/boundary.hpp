@@ -20,8 +20,12 @@ class AbsorbingBoundary {
   /// @param loads constant force on every corner of the outer boundary [N/m] (others are zero)
   AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density, std::span<const Vec2> loads);
 
-  /// Kicks the boundary nodes with their constant load, and damps them; books what is radiated.
+  /// After the rock has moved without it: moves the boundary nodes on by their constant load, and
+  /// damps them; books what is radiated.
   void apply(State& state, double dt) const;
+
+  /// Adds the constant loads to forces per node [N/m].
+  void add_loads(std::span<Vec2> node_forces) const;
 
  private:
   struct Entry {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,10 +15,11 @@ namespace crackle {
 /// sparse direct factorisation and Newton corrections with it: no steps.
 ///
 /// @param fixed one per vertex: held at zero displacement
-/// @param corner_loads constant forces per corner [N/m]; may be empty
+/// @param add_loads adds the loads to the forces per corner [N/m] of a tied state in its present
+///        place (they may follow its motion, as a pressure does); may be empty
 /// @return displacement of every vertex [m]
 /// @throws NumericalError when the system is singular (nothing holds the body)
-std::vector<Vec2> static_displacement(const Mesh& mesh, const Bulk& bulk, const std::vector<char>& fixed,
-                                      std::span<const Vec2> corner_loads);
+std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh, const Bulk& bulk, const std::vector<char>& fixed,
+                                      const std::function<void(const State&, std::span<Vec2>)>& add_loads);
 
 }  // namespace crackle
