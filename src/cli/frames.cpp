@@ -58,7 +58,8 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     const std::size_t i = at(h.element);
     const auto& n = state.cohesive.nodes[i];
     const auto middle = [&](Index a, Index b) {
-      return 0.5 * (state.node_reference(a) + state.displacement[at(a)] + state.node_reference(b) + state.displacement[at(b)]);
+      return 0.5 * (state.node_reference(a) + state.displacement[at(a)] + state.node_reference(b) +
+                    state.displacement[at(b)]);
     };
     const Index p = static_cast<Index>(frame.points.size());
     frame.points.push_back(middle(n[0], n[2]));
@@ -74,7 +75,8 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     pressure.values.push_back(cavity >= 0 ? state.fluid.cavities[at(cavity)].pressure : 0.0);
     broken.values.push_back(is_broken ? 1.0 : 0.0);
   }
-  frame.cell_fields = {std::move(opening), std::move(slip), std::move(damage), std::move(mode), std::move(pressure), std::move(broken)};
+  frame.cell_fields = {std::move(opening), std::move(slip),     std::move(damage),
+                       std::move(mode),    std::move(pressure), std::move(broken)};
   return frame;
 }
 

@@ -48,11 +48,12 @@ void Progress::finish(const Now& now) {
 void Progress::print(const Now& now, bool last) {
   const double share = now.time / end_time_;
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const std::string left = last ? fmt::format("took {}", duration(wall))
+  const std::string left = last            ? fmt::format("took {}", duration(wall))
                            : share > 0.005 ? fmt::format("{} left", duration(wall * (1.0 - share) / share))
                                            : std::string("...");
-  const std::string text = fmt::format("{:5.1f} %  t = {:.3f} of {:.3f} ms  step {}  {:.2f} MPa  {} broken  {}", 100.0 * share,
-                                       1e3 * now.time, 1e3 * end_time_, now.step, 1e-6 * now.pressure, now.broken, left);
+  const std::string text =
+      fmt::format("{:5.1f} %  t = {:.3f} of {:.3f} ms  step {}  {:.2f} MPa  {} broken  {}", 100.0 * share,
+                  1e3 * now.time, 1e3 * end_time_, now.step, 1e-6 * now.pressure, now.broken, left);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", text);
     return;

@@ -11,10 +11,10 @@ namespace crackle {
 class Progress {
  public:
   struct Now {
-    double time = 0.0;           ///< simulated [s]
-    double pressure = 0.0;       ///< in the wellbore [Pa]
+    double time = 0.0;      ///< simulated [s]
+    double pressure = 0.0;  ///< in the wellbore [Pa]
     std::int64_t step = 0;
-    std::int64_t broken = 0;     ///< cohesive elements
+    std::int64_t broken = 0;  ///< cohesive elements
   };
 
   Progress(double end_time, bool quiet);

@@ -93,7 +93,8 @@ class Due {
   std::int64_t next_ = 0;
 };
 
-HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tally, double time, double dt, double pressure) {
+HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tally, double time, double dt,
+                       double pressure) {
   HistoryRow row;
   row.time = time;
   row.time_step = dt;
@@ -124,9 +125,10 @@ HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tall
 int run_command(const RunOptions& options) {
   const Case scene = load_case(options.case_file, options.overrides, options.seed);
   require_memory(scene);
-  const std::string path = options.output.empty()
-                               ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()
-                               : options.output;
+  const std::string path =
+      options.output.empty()
+          ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()
+          : options.output;
   RunFolder folder(path);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   omp_set_num_threads(threads);
@@ -138,29 +140,36 @@ int run_command(const RunOptions& options) {
 
   const auto start = std::chrono::steady_clock::now();
   auto mesh = std::make_shared<const Mesh>(excavate(make_mesh(scene)));
-  say(fmt::format("mesh: {} triangles, {} vertices ({:.1f} s)", mesh->triangle_count(), mesh->vertex_count(), seconds_since(start)));
+  say(fmt::format("mesh: {} triangles, {} vertices ({:.1f} s)", mesh->triangle_count(), mesh->vertex_count(),
+                  seconds_since(start)));
   require_memory(scene, mesh->triangle_count());  // known only now for a mesh from a file
   const Scene solver_scene = make_scene(scene, mesh);
-  if (const std::string error = scene_error(solver_scene); !error.empty()) throw CaseError(scene.file, 0, 0, error);
+  if (const std::string error = scene_error(solver_scene); !error.empty())
+    throw CaseError(scene.file, 0, 0, error);
   const auto settle_start = std::chrono::steady_clock::now();
   Simulation simulation(solver_scene);
-  say(fmt::format("geostatic stage and excavation: unbalanced force {:.1e} of the largest{} ({:.1f} s)", simulation.imbalance(),
-                  simulation.geostatic_slips() > 0
-                      ? fmt::format(", {} elements slipped or broke and came to rest", simulation.geostatic_slips())
-                      : "",
-                  seconds_since(settle_start)));
+  say(fmt::format(
+      "geostatic stage and excavation: unbalanced force {:.1e} of the largest{} ({:.1f} s)",
+      simulation.imbalance(),
+      simulation.geostatic_slips() > 0
+          ? fmt::format(", {} elements slipped or broke and came to rest", simulation.geostatic_slips())
+          : "",
+      seconds_since(settle_start)));
   say(simulation.stable().explain(*mesh));
-  for (const std::string& line : scene_warnings(solver_scene, scene.run.end_time, simulation.stable())) say(line);
+  for (const std::string& line : scene_warnings(solver_scene, scene.run.end_time, simulation.stable()))
+    say(line);
 
   double dt = scene.run.safety * simulation.stable().limit;
   if (scene.run.time_step > 0.0) {
     dt = scene.run.time_step;
     if (dt > simulation.stable().limit) {
-      throw CaseError(scene.file, 0, 0, fmt::format("run.time_step = {:.3g} s is above the {}; write \"auto\"", dt,
-                                                    simulation.stable().explain(*mesh)));
+      throw CaseError(scene.file, 0, 0,
+                      fmt::format("run.time_step = {:.3g} s is above the {}; write \"auto\"", dt,
+                                  simulation.stable().explain(*mesh)));
     }
   }
-  const auto steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(scene.run.end_time / dt - 1e-9)));
+  const auto steps =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(scene.run.end_time / dt - 1e-9)));
   dt = scene.run.end_time / static_cast<double>(steps);
   say(fmt::format("{} steps of {:.3g} s on {} threads", steps, dt, threads));
 
@@ -175,7 +184,8 @@ int run_command(const RunOptions& options) {
   std::vector<SeismicEvent> events;
   Progress progress(scene.run.end_time, options.quiet);
   const auto now = [&] {
-    return Progress::Now{simulation.state().time, simulation.wellbore_pressure(), simulation.state().step, tally.broken()};
+    return Progress::Now{simulation.state().time, simulation.wellbore_pressure(), simulation.state().step,
+                         tally.broken()};
   };
   std::string exit = "done";
   int code = 0;
@@ -194,8 +204,9 @@ int run_command(const RunOptions& options) {
     summary.triangles = mesh->triangle_count();
     summary.steps = simulation.state().step;
     summary.wall = seconds_since(start);
-    summary.core_ns_per_triangle_step =
-        1e9 * loop_wall * threads / (static_cast<double>(summary.triangles) * static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
+    summary.core_ns_per_triangle_step = 1e9 * loop_wall * threads /
+                                        (static_cast<double>(summary.triangles) *
+                                         static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
     summary.exit = exit;
     folder.write_quakeml(events, scene);
     folder.write_summary(summary);
@@ -219,9 +230,10 @@ int run_command(const RunOptions& options) {
         tally.residual(e.residual);
         folder.append_history(history_row(simulation, e, tally, time, now_dt, pressure));
         if (e.residual > 1e-2) {
-          throw NumericalError(fmt::format("energy residual {:.3g} passes 1e-2 at step {}, time {:.6g} s, step size {:.3g} s "
-                                           "(stable: {:.3g} s): take a smaller run.safety",
-                                           e.residual, simulation.state().step, time, now_dt, simulation.stable_limit()));
+          throw NumericalError(
+              fmt::format("energy residual {:.3g} passes 1e-2 at step {}, time {:.6g} s, step size {:.3g} s "
+                          "(stable: {:.3g} s): take a smaller run.safety",
+                          e.residual, simulation.state().step, time, now_dt, simulation.stable_limit()));
         }
       } else {
         simulation.step(now_dt);
@@ -248,14 +260,18 @@ int run_command(const RunOptions& options) {
 
   std::string parts;
   for (int p = 0; p < Stopwatch::parts; ++p) {
-    const double share = simulation.stopwatch().seconds(static_cast<Stopwatch::Part>(p)) / std::max(loop_wall, 1e-9);
-    parts += fmt::format("{}{} {:.0f} %", p > 0 ? ", " : "", Stopwatch::names[static_cast<std::size_t>(p)], 100.0 * share);
+    const double share =
+        simulation.stopwatch().seconds(static_cast<Stopwatch::Part>(p)) / std::max(loop_wall, 1e-9);
+    parts += fmt::format("{}{} {:.0f} %", p > 0 ? ", " : "", Stopwatch::names[static_cast<std::size_t>(p)],
+                         100.0 * share);
   }
-  say(fmt::format("time: {:.1f} s in steps ({}), {:.1f} s in output; {:.1f} core-ns per triangle and step", loop_wall, parts,
-                  output_wall, summary.core_ns_per_triangle_step));
-  say(fmt::format("breakdown {:.3f} MPa at {:.4f} ms, propagation {:.3f} MPa; {} broken elements, {:.3f} m; energy residual {:.1e}",
-                  1e-6 * summary.breakdown_pressure, 1e3 * summary.breakdown_time, 1e-6 * summary.propagation_pressure,
-                  summary.events, summary.broken_length, summary.energy_residual_max));
+  say(fmt::format("time: {:.1f} s in steps ({}), {:.1f} s in output; {:.1f} core-ns per triangle and step",
+                  loop_wall, parts, output_wall, summary.core_ns_per_triangle_step));
+  say(fmt::format(
+      "breakdown {:.3f} MPa at {:.4f} ms, propagation {:.3f} MPa; {} broken elements, {:.3f} m; energy "
+      "residual {:.1e}",
+      1e-6 * summary.breakdown_pressure, 1e3 * summary.breakdown_time, 1e-6 * summary.propagation_pressure,
+      summary.events, summary.broken_length, summary.energy_residual_max));
   say(fmt::format("{}: {}", exit, folder.path()));
   return code;
 }

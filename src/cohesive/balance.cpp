@@ -143,12 +143,13 @@ std::vector<Index> Cohesive::balance(State& state, std::span<const Vec2> corner_
       place(ask1, separations[2], separations[3]);
       if (over) break;
       const auto traction = [&](double o, double s) {
-        const ElasticTraction q = elastic_traction(material_.penalty / length, law_->curvature(),
-                                                   material_.tensile_strength, material_.cohesion,
-                                                   material_.tan_friction, o, s);
+        const ElasticTraction q =
+            elastic_traction(material_.penalty / length, law_->curvature(), material_.tensile_strength,
+                             material_.cohesion, material_.tan_friction, o, s);
         return q.normal * n + q.shear * t;
       };
-      const Vec2 middle = traction(0.5 * (separations[0] + separations[2]), 0.5 * (separations[1] + separations[3]));
+      const Vec2 middle =
+          traction(0.5 * (separations[0] + separations[2]), 0.5 * (separations[1] + separations[3]));
       const Vec2 t0 = traction(separations[0], separations[1]);
       const Vec2 t1 = traction(separations[2], separations[3]);
       const Vec2 miss0 = target[at(e)].end0 - (length / 6.0) * (t0 + 2.0 * middle);

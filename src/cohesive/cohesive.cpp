@@ -34,7 +34,8 @@ inline EndSeparation separate(const Vec2* u, const std::array<Index, 4>& n, Vec2
 
 // Forces on face a from the tractions at ends and middle, Simpson's rule; the middle's share goes
 // half to each end.
-inline EndForces end_forces(Vec2 t, double sixth, double n0, double s0, double nm, double sm, double n1, double s1) {
+inline EndForces end_forces(Vec2 t, double sixth, double n0, double s0, double nm, double sm, double n1,
+                            double s1) {
   const double p0 = sixth * (n0 + 2.0 * nm), q0 = sixth * (s0 + 2.0 * sm);
   const double p1 = sixth * (n1 + 2.0 * nm), q1 = sixth * (s1 + 2.0 * sm);
   return {{p0 * t.y + q0 * t.x, -p0 * t.x + q0 * t.y}, {p1 * t.y + q1 * t.x, -p1 * t.x + q1 * t.y}};
@@ -101,7 +102,8 @@ inline void evaluate_chunk(Chunk& c, FastMaterial m, int count) {
 
 CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* nodes, const Vec2* direction,
                                      const double* inverse_length, const std::array<double, 4>* offset,
-                                     FastMaterial m, Index begin, Index end, EndForces* force, std::uint8_t* beyond) {
+                                     FastMaterial m, Index begin, Index end, EndForces* force,
+                                     std::uint8_t* beyond) {
   Chunk c;
   for (Index first = begin; first < end; first += chunk) {
     const int count = std::min<Index>(chunk, end - first);
@@ -140,7 +142,8 @@ Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, const CohesiveMateria
 
 EndSeparation Cohesive::separation(const State& state, Index element) const {
   const CohesiveElements& c = state.cohesive;
-  return separate(state.displacement.data(), c.nodes[at(element)], c.direction[at(element)], c.offset[at(element)]);
+  return separate(state.displacement.data(), c.nodes[at(element)], c.direction[at(element)],
+                  c.offset[at(element)]);
 }
 
 Vec2 Cohesive::place(const State& state, Index element) {
@@ -225,12 +228,12 @@ void Cohesive::add_tractions(State& state) {
   changed_ = false;
   if (c.count() == 0) return;
   beyond_.resize(c.edge.size());
-  const FastMaterial fast{material_.penalty, law_->curvature(), material_.tensile_strength, material_.cohesion,
-                          material_.tan_friction};
+  const FastMaterial fast{material_.penalty, law_->curvature(), material_.tensile_strength,
+                          material_.cohesion, material_.tan_friction};
   std::vector<Index> first_beyond(at(block_count(c.count())), 0);
   for_each_block(c.count(), [&](Index begin, Index end, Index block) {
-    elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.inverse_length.data(), c.offset.data(),
-                     fast, begin, end, c.force.data(), beyond_.data());
+    elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.inverse_length.data(),
+                     c.offset.data(), fast, begin, end, c.force.data(), beyond_.data());
     Index any = 0;
     for (Index i = begin; i < end; ++i) any += beyond_[at(i)] && c.history_of[at(i)] < 0;
     first_beyond[at(block)] = any;

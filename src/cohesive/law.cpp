@@ -33,7 +33,8 @@ std::vector<std::shared_ptr<const CohesiveLaw>>& registry() {
 }  // namespace
 
 double CohesiveLaw::softening_opening(const CohesiveMaterial& m, double length) const {
-  if (m.calibration == Calibration::y_geo) return y_geo_factor() * m.fracture_energy_mode1 / m.tensile_strength;
+  if (m.calibration == Calibration::y_geo)
+    return y_geo_factor() * m.fracture_energy_mode1 / m.tensile_strength;
   const double peak = (1.0 + curvature()) * m.tensile_strength / stiffness_of(m, length);
   return (m.fracture_energy_mode1 - branch_area(curvature()) * m.tensile_strength * peak) /
          (softening_integral() * m.tensile_strength);
@@ -47,7 +48,8 @@ double CohesiveLaw::softening_slip(const CohesiveMaterial& m, double length, dou
   const double drop = std::max(strength - residual, 0.1 * strength);
   const double peak = (1.0 + curvature()) * strength / stiffness_of(m, length);
   const double rise = (branch_area(curvature()) * strength - residual) * peak;
-  return std::max(m.fracture_energy_mode2 - rise, 0.01 * m.fracture_energy_mode2) / (softening_integral() * drop);
+  return std::max(m.fracture_energy_mode2 - rise, 0.01 * m.fracture_energy_mode2) /
+         (softening_integral() * drop);
 }
 
 double CohesiveLaw::longest_edge(const CohesiveMaterial& m) const {
@@ -65,14 +67,16 @@ double CohesiveLaw::elastic_opening(const CohesiveMaterial& m, double length, do
   return 2.0 * f * (1.0 - std::sqrt(std::max(0.0, 1.0 - normal / f))) / k;
 }
 
-double CohesiveLaw::elastic_slip(const CohesiveMaterial& m, double length, double normal, double shear) const {
+double CohesiveLaw::elastic_slip(const CohesiveMaterial& m, double length, double normal,
+                                 double shear) const {
   const double k = stiffness_of(m, length);
   if (curvature() == 0.0) return shear / k;
   const double f = shear_strength(m, normal);
   return std::copysign(2.0 * f * (1.0 - std::sqrt(std::max(0.0, 1.0 - std::abs(shear) / f))) / k, shear);
 }
 
-double CohesiveLaw::elastic_energy(const CohesiveMaterial& m, double length, double opening, double slip) const {
+double CohesiveLaw::elastic_energy(const CohesiveMaterial& m, double length, double opening,
+                                   double slip) const {
   const double k = stiffness_of(m, length);
   const double c = curvature();
   const double normal =
@@ -92,7 +96,8 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
   p.opening = opening;
   p.slip = slip;
   if (p.damage == 0.0) {
-    const ElasticTraction t = elastic_traction(k, c, m.tensile_strength, m.cohesion, m.tan_friction, opening, slip);
+    const ElasticTraction t =
+        elastic_traction(k, c, m.tensile_strength, m.cohesion, m.tan_friction, opening, slip);
     if (!t.beyond) {
       p.normal = t.normal;
       p.shear = t.shear;

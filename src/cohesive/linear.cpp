@@ -12,7 +12,9 @@ namespace {
 class Linear final : public CohesiveLaw {
  public:
   std::string name() const override { return "linear"; }
-  std::string description() const override { return "straight rise and straight softening (Hillerborg et al. 1976)"; }
+  std::string description() const override {
+    return "straight rise and straight softening (Hillerborg et al. 1976)";
+  }
   double curvature() const override { return 0.0; }
   double softening(double damage) const override { return 1.0 - damage; }
   double softening_integral() const override { return 0.5; }

@@ -30,13 +30,15 @@ double solve_pressure(const CompressibleFluid& f, double volume, double softness
 
 }  // namespace
 
-Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump) : fluid_(fluid), pump_(std::move(pump)) {
+Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump)
+    : fluid_(fluid), pump_(std::move(pump)) {
   const Mesh& mesh = *state.mesh;
   edges_of_vertex_first_.assign(mesh.vertices.size() + 1, 0);
   for (const Edge& e : mesh.edges) {
     for (const Index v : e.vertex) ++edges_of_vertex_first_[at(v) + 1];
   }
-  std::partial_sum(edges_of_vertex_first_.begin(), edges_of_vertex_first_.end(), edges_of_vertex_first_.begin());
+  std::partial_sum(edges_of_vertex_first_.begin(), edges_of_vertex_first_.end(),
+                   edges_of_vertex_first_.begin());
   edges_of_vertex_.resize(2 * mesh.edges.size());
   std::vector<Index> next(edges_of_vertex_first_.begin(), edges_of_vertex_first_.end() - 1);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
@@ -119,7 +121,8 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
   for (const Index element : broken) {
     const Index e = state.cohesive.edge[at(element)];
     const auto& v = mesh.edges[at(e)].vertex;
-    if (f.cavity_of_edge[at(e)] < 0 && (f.cavity_of_vertex[at(v[0])] >= 0 || f.cavity_of_vertex[at(v[1])] >= 0)) {
+    if (f.cavity_of_edge[at(e)] < 0 &&
+        (f.cavity_of_vertex[at(v[0])] >= 0 || f.cavity_of_vertex[at(v[1])] >= 0)) {
       reached.push_back(e);
     }
   }
@@ -177,7 +180,8 @@ double Fluid::measured_energy(const State& state) const {
   double sum = 0.0;
   for (std::size_t c = 0; c < state.fluid.cavities.size(); ++c) {
     const double mass = state.fluid.cavities[c].mass;
-    if (mass > 0.0 && volume_[c] > 0.0) sum += fluid_.energy(mass, volume_[c], fluid_.pressure(mass, volume_[c]));
+    if (mass > 0.0 && volume_[c] > 0.0)
+      sum += fluid_.energy(mass, volume_[c], fluid_.pressure(mass, volume_[c]));
   }
   return sum;
 }
@@ -206,9 +210,10 @@ void Fluid::advance(State& state, double dt) {
     const double before = cavity.pressure;
     cavity.mass += mass_in;
     if (!(cavity.mass > 0.0)) {
-      throw NumericalError(fmt::format("cavity {} holds no fluid (mass {:.3g} kg/m) at step {}, time {:.6g} s: "
-                                       "has the pump drawn more than there was?",
-                                       c, cavity.mass, state.step, state.time));
+      throw NumericalError(
+          fmt::format("cavity {} holds no fluid (mass {:.3g} kg/m) at step {}, time {:.6g} s: "
+                      "has the pump drawn more than there was?",
+                      c, cavity.mass, state.step, state.time));
     }
     // Where the fluid is soft against the step the pressure at the step's beginning may push: the
     // integrator then conserves energy with it. Where it is not, the one at its end has to.
@@ -222,9 +227,10 @@ void Fluid::advance(State& state, double dt) {
     cavity.injected += mass_in / fluid_.density;
     cavity.work += mass_in * 0.5 * (fluid_.enthalpy(before) + fluid_.enthalpy(cavity.pressure));
     if (!(cavity.volume > 0.0)) {
-      throw NumericalError(fmt::format("cavity {} has no volume left ({:.3g} m2) at step {}, time {:.6g} s: "
-                                       "its walls have closed on one another",
-                                       c, cavity.volume, state.step, state.time));
+      throw NumericalError(
+          fmt::format("cavity {} has no volume left ({:.3g} m2) at step {}, time {:.6g} s: "
+                      "its walls have closed on one another",
+                      c, cavity.volume, state.step, state.time));
     }
   }
   for (const Wet& w : wet_) {
@@ -243,7 +249,8 @@ double Fluid::energy(const State& state) const {
 double Fluid::wetted_length(const State& state) const {
   double sum = 0.0;
   for (Index i = 0; i < state.cohesive.count(); ++i) {
-    if (state.fluid.cavity_of_edge[at(state.cohesive.edge[at(i)])] >= 0) sum += norm(state.cohesive.direction[at(i)]);
+    if (state.fluid.cavity_of_edge[at(state.cohesive.edge[at(i)])] >= 0)
+      sum += norm(state.cohesive.direction[at(i)]);
   }
   return sum;
 }

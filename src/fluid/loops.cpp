@@ -57,7 +57,8 @@ std::vector<Fluid::Loop> wetted_loops(const State& state, bool& leaks) {
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (state.fluid.cavity_of_edge[e] < 0) continue;
     for (std::size_t f = 0; f < 2; ++f) {
-      if (mesh.edges[e].triangle[f] >= 0) sides.push_back(3 * mesh.edges[e].triangle[f] + mesh.edges[e].side[f]);
+      if (mesh.edges[e].triangle[f] >= 0)
+        sides.push_back(3 * mesh.edges[e].triangle[f] + mesh.edges[e].side[f]);
     }
   }
   std::sort(sides.begin(), sides.end());

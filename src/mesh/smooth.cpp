@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Points move to where they make better triangles. The explicit time step of a run is set by its
-// worst triangle, so this pays in every step.
-//
-// First all points relax: each goes to the mean of the circumcentres of its triangles, weighted by
-// area and by density 1 / size^4 (optimal Delaunay triangulation: Chen and Xu 2004; Alliez et al.
-// 2005), but only where its smallest angle does not suffer; then edges are flipped back to
-// Delaunay, which never makes the smallest angle smaller (Lawson 1977). Then single points round
-// triangles that still fall short are moved by trial (Freitag and Ollivier-Gooch 1997).
+// worst triangle, so this pays in every step. Only single points round triangles that fall short are
+// moved, by trial (Freitag and Ollivier-Gooch 1997), and edges flipped back to Delaunay, which never
+// makes the smallest angle smaller (Lawson 1977). Relaxing all points would do no better at the
+// smallest angle, and would draw out rows of equilateral triangles along the walls, which steer
+// fractures (see insert_ring() in cgal_generator.cpp).
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -16,7 +14,6 @@
 namespace crackle::meshing {
 namespace {
 
-constexpr int relaxing_sweeps = 2;  // more would make rows of equilateral triangles along the walls
 constexpr int mending_sweeps = 20;  // at most; it ends when nothing is left to mend
 
 // What a triangle should fulfil. An equilateral one has 60 degrees, 0.866 and 1.
@@ -44,12 +41,6 @@ struct Shape {
                      wanted_longest_edge * wanted_longest_edge * h * h / longest});
   }
 };
-
-/// Circumcentre of the triangle (0, u, v).
-Vec2 circumcentre(Vec2 u, Vec2 v) {
-  const double uu = dot(u, u), vv = dot(v, v);
-  return (0.5 / cross(u, v)) * Vec2{v.y * uu - u.y * vv, u.x * vv - v.x * uu};
-}
 
 /// The triangles round every point: for each its other two corners, counter-clockwise.
 class Stars {
@@ -86,39 +77,6 @@ std::vector<Index> free_points(const Draft& draft) {
     if (!fixed[v]) free.push_back(v);
   }
   return free;
-}
-
-/// One sweep over the free points: each sees where those before it have gone.
-void relax(Draft& draft, const SizeField& size, const std::vector<Index>& free) {
-  constexpr double no_worry = 0.2966;  // sin^2 of 33 degrees: below, an angle must not get smaller
-  const Stars stars(draft);
-  for (const Index v : free) {
-    const Vec2 here = draft.points[v];
-    const auto worst = [&](Vec2 place) {
-      double least = no_worry;
-      for (const auto& [q, r] : stars.of(v)) {
-        least = std::min(least, Shape(place, draft.points[q], draft.points[r]).sine2());
-      }
-      return least;
-    };
-    Vec2 sum;
-    double weights = 0.0;
-    for (const auto& [q, r] : stars.of(v)) {
-      const Vec2 to_q = draft.points[q] - here, to_r = draft.points[r] - here;
-      const double h = size(here + (1.0 / 3.0) * (to_q + to_r));
-      const double weight = cross(to_q, to_r) / (h * h * h * h);
-      sum += weight * circumcentre(to_q, to_r);
-      weights += weight;
-    }
-    const double before = worst(here);
-    Vec2 step = (1.0 / weights) * sum;
-    for (int attempt = 0; attempt < 3; ++attempt, step *= 0.5) {
-      if (worst(here + step) >= before) {
-        draft.points[v] = here + step;
-        break;
-      }
-    }
-  }
 }
 
 /// Moves every free point with an unfit triangle, by trial in eight directions, to where the least
@@ -165,10 +123,6 @@ bool mend(Draft& draft, const SizeField& size, const std::vector<Index>& free) {
 
 void smooth(Draft& draft, const SizeField& size) {
   const std::vector<Index> free = free_points(draft);
-  for (int sweep = 0; sweep < relaxing_sweeps; ++sweep) {
-    relax(draft, size, free);
-    triangulate(draft);
-  }
   for (int sweep = 0; sweep < mending_sweeps && mend(draft, size, free); ++sweep) triangulate(draft);
 }
 

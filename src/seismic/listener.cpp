@@ -13,9 +13,12 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::string to_string(FailureMode mode) {
   switch (mode) {
-    case FailureMode::tensile: return "tensile";
-    case FailureMode::shear: return "shear";
-    case FailureMode::mixed: return "mixed";
+    case FailureMode::tensile:
+      return "tensile";
+    case FailureMode::shear:
+      return "shear";
+    case FailureMode::mixed:
+      return "mixed";
   }
   return "unknown";
 }
@@ -34,7 +37,8 @@ std::vector<SeismicEvent> listen(const State& state, std::span<const Index> brok
     const CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
     SeismicEvent event;
     event.time = state.time;
-    for (const Index n : c.nodes[at(element)]) event.place += 0.25 * (state.node_reference(n) + state.displacement[at(n)]);
+    for (const Index n : c.nodes[at(element)])
+      event.place += 0.25 * (state.node_reference(n) + state.displacement[at(n)]);
     event.mode = failure_mode(h.fracture_energy > 0.0 ? h.sliding_work / h.fracture_energy : 0.0);
     event.energy = h.kinetic_rise;
     event.magnitude = magnitude_of_energy(h.kinetic_rise * thickness);

@@ -64,10 +64,12 @@ inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u,
   return power;
 }
 
-CRACKLE_KERNEL double elastic_forces(const Index* nodes, const Vec2* u, const std::array<double, 4>* inverse_shape,
-                                     const double* area, const Sym2* in_situ, const PlaneStiffness& c, Index count,
+CRACKLE_KERNEL double elastic_forces(const Index* nodes, const Vec2* u,
+                                     const std::array<double, 4>* inverse_shape, const double* area,
+                                     const Sym2* in_situ, const PlaneStiffness& c, Index count,
                                      Vec2* forces) {
-  return forces_of<false>(nodes, u, nullptr, inverse_shape, area, in_situ, nullptr, nullptr, c, count, forces);
+  return forces_of<false>(nodes, u, nullptr, inverse_shape, area, in_situ, nullptr, nullptr, c, count,
+                          forces);
 }
 
 CRACKLE_KERNEL double viscous_forces(const Index* nodes, const Vec2* u, const Vec2* v,
@@ -100,7 +102,8 @@ Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sy
     inverse_shape_[t] = {d2.y / twice, -d2.x / twice, -d1.y / twice, d1.x / twice};
     area_[t] = 0.5 * twice;
     if (viscous_) {
-      const double h = std::sqrt(4.0 / std::sqrt(3.0) * area_[t]);  // edge of the equilateral triangle of this area
+      const double h =
+          std::sqrt(4.0 / std::sqrt(3.0) * area_[t]);  // edge of the equilateral triangle of this area
       viscosity_[t] = damping.viscosity + damping.ratio * 2.0 * h * std::sqrt(young_modulus * density);
     }
   }
@@ -111,8 +114,8 @@ double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) c
   const Index* nodes = state.node_of_corner.data() + 3 * b;
   const Vec2* u = state.displacement.data();
   if (!viscous_) {
-    return elastic_forces(nodes, u, inverse_shape_.data() + b, area_.data() + b, in_situ_.data() + b, stiffness_,
-                          end - begin, forces);
+    return elastic_forces(nodes, u, inverse_shape_.data() + b, area_.data() + b, in_situ_.data() + b,
+                          stiffness_, end - begin, forces);
   }
   return viscous_forces(nodes, u, state.velocity.data(), inverse_shape_.data() + b, area_.data() + b,
                         in_situ_.data() + b, viscosity_.data() + b, state.strain_rate.data() + b, stiffness_,

@@ -17,7 +17,8 @@ double PlaneStiffness::largest() const {
 PlaneStiffness isotropic_plane_strain(double young_modulus, double poisson_ratio) {
   const double mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
   const double lambda = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
-  return {.c11 = lambda + 2.0 * mu, .c12 = lambda, .c22 = lambda + 2.0 * mu, .c16 = 0.0, .c26 = 0.0, .c66 = mu};
+  return {
+      .c11 = lambda + 2.0 * mu, .c12 = lambda, .c22 = lambda + 2.0 * mu, .c16 = 0.0, .c26 = 0.0, .c66 = mu};
 }
 
 WaveSpeeds wave_speeds(const PlaneStiffness& stiffness, double density) {

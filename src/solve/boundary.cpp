@@ -19,7 +19,8 @@ AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& s
     const double half = 0.5 * norm(along);
     const Vec2 normal = (0.5 / half) * right_normal(along);
     for (const Index corner : {first, second}) {
-      entries_.push_back({state.node_of_corner[at(corner)], normal, density * c.p * half, density * c.s * half});
+      entries_.push_back(
+          {state.node_of_corner[at(corner)], normal, density * c.p * half, density * c.s * half});
     }
   }
   for (std::size_t k = 0; k < loads.size(); ++k) {
@@ -41,7 +42,8 @@ void AbsorbingBoundary::apply(State& state, double dt) const {
     const Vec2 vt = v - vn * e.normal;
     const double fn = vn / (1.0 + w * e.normal_dashpot);
     const Vec2 ft = (1.0 / (1.0 + w * e.tangent_dashpot)) * vt;
-    state.dissipation.boundary += dt * (e.normal_dashpot * fn * 0.5 * (vn + fn) + e.tangent_dashpot * 0.5 * dot(ft, vt + ft));
+    state.dissipation.boundary +=
+        dt * (e.normal_dashpot * fn * 0.5 * (vn + fn) + e.tangent_dashpot * 0.5 * dot(ft, vt + ft));
     const Vec2 damped = fn * e.normal + ft;
     state.displacement[at(e.node)] += dt * (damped - v);
     v = damped;

@@ -54,8 +54,9 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
     solver.compute(stiffness);
   }
   if (solver.info() != Eigen::Success) {
-    throw NumericalError("static equilibrium: the stiffness matrix is singular; is some part of the rock held by "
-                         "nothing (no outer boundary, or a loose block)?");
+    throw NumericalError(
+        "static equilibrium: the stiffness matrix is singular; is some part of the rock held by "
+        "nothing (no outer boundary, or a loose block)?");
   }
 
   State tied = make_tied_state(mesh_ptr);

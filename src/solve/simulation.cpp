@@ -75,7 +75,8 @@ Simulation::Simulation(Scene scene)
   const std::vector<Vec2> displacement = geostatic_displacement(scene_, bulk_);
   state_ = scene_.law ? make_split_state(scene_.mesh) : make_tied_state(scene_.mesh);
   for (std::size_t c = 0; c < state_.node_of_corner.size(); ++c) {
-    state_.displacement[at(state_.node_of_corner[c])] = displacement[at(scene_.mesh->triangles[c / 3][c % 3])];
+    state_.displacement[at(state_.node_of_corner[c])] =
+        displacement[at(scene_.mesh->triangles[c / 3][c % 3])];
   }
   set_mass(state_, scene_.density);
   if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
@@ -118,7 +119,8 @@ void Simulation::settle() {
   }
   if (scene_.absorbing_boundary) {
     for (Index t = 0; t < mesh.triangle_count(); ++t) {
-      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), &forces[at(3 * t)]);
+      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
+                         &forces[at(3 * t)]);
     }
     std::vector<char> outer(mesh.vertices.size(), 0);
     for (const Edge& edge : mesh.edges) {
@@ -134,7 +136,8 @@ void Simulation::settle() {
   state_.dissipation = {};
   // Nothing is measured against less energy than strains of 3e-8 everywhere hold.
   scale_ = 0.0;
-  for (Index t = 0; t < mesh.triangle_count(); ++t) scale_ += 1e-15 * scene_.stiffness.largest() * bulk_.area(t);
+  for (Index t = 0; t < mesh.triangle_count(); ++t)
+    scale_ += 1e-15 * scene_.stiffness.largest() * bulk_.area(t);
   reference_ = {};
   reference_.strain = bulk_.strain_energy(state_);
   if (cohesive_) reference_.cohesive = cohesive_->stored_energy(state_);
@@ -151,7 +154,8 @@ void Simulation::relax() {
     advance(dt, nullptr);
     double kinetic = 0.0;
     for (std::size_t n = 0; n < state_.velocity.size(); ++n) {
-      if (state_.inverse_mass[n] > 0.0) kinetic += 0.5 * dot(state_.velocity[n], state_.velocity[n]) / state_.inverse_mass[n];
+      if (state_.inverse_mass[n] > 0.0)
+        kinetic += 0.5 * dot(state_.velocity[n], state_.velocity[n]) / state_.inverse_mass[n];
     }
     peak = std::max(peak, kinetic);
     if (kinetic < before) {
@@ -165,10 +169,11 @@ void Simulation::relax() {
     }
     before = kinetic;
   }
-  throw NumericalError(fmt::format("the geostatic stage does not come to rest within {} relaxation steps: {} cohesive "
-                                   "elements were beyond their strength after the excavation; is the rock too weak for "
-                                   "this stress?",
-                                   most, geostatic_slips_));
+  throw NumericalError(
+      fmt::format("the geostatic stage does not come to rest within {} relaxation steps: {} cohesive "
+                  "elements were beyond their strength after the excavation; is the rock too weak for "
+                  "this stress?",
+                  most, geostatic_slips_));
 }
 
 double Simulation::stable_limit() const {
@@ -227,16 +232,16 @@ void Simulation::advance(double dt, Energies* account) {
     contact_->update(state_);
     stopwatch_.lap(Stopwatch::contact);
   }
-  if (account != nullptr) {
-    *account = potential_energies();
-    velocity_before_ = state_.velocity;
-    stopwatch_.lap(Stopwatch::ledger);
-  }
   if (cohesive_ && !cohesive_->newly_broken().empty()) {
     new_events_ = listen(state_, cohesive_->newly_broken(), scene_.thickness);
     stopwatch_.lap(Stopwatch::events);
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
     stopwatch_.lap(Stopwatch::fluid);
+  }
+  if (account != nullptr) {
+    *account = potential_energies();
+    velocity_before_ = state_.velocity;
+    stopwatch_.lap(Stopwatch::ledger);
   }
   if (contact_) contact_->apply(state_, dt);
   move_nodes(dt);
@@ -246,9 +251,10 @@ void Simulation::advance(double dt, Energies* account) {
     fluid_->advance(state_, dt);
     stopwatch_.lap(Stopwatch::fluid);
     if (fluid_->leaks()) {
-      throw NumericalError(fmt::format("a fracture has reached the outer boundary at step {}, time {:.6g} s, and the "
-                                       "fluid would leave the model there: end the run earlier or make the domain larger",
-                                       state_.step, state_.time));
+      throw NumericalError(
+          fmt::format("a fracture has reached the outer boundary at step {}, time {:.6g} s, and the "
+                      "fluid would leave the model there: end the run earlier or make the domain larger",
+                      state_.step, state_.time));
     }
   }
   if (account != nullptr) {
@@ -302,12 +308,14 @@ void Simulation::stop_not_finite() const {
       const Vec2 u = state_.displacement[n], v = state_.velocity[n];
       if (std::isfinite(u.x) && std::isfinite(u.y) && std::isfinite(v.x) && std::isfinite(v.y)) continue;
       const Vec2 x = state_.reference(3 * t + i);
-      throw NumericalError(fmt::format("motion is no longer finite in triangle {} at ({:.4g}, {:.4g}) m, step {}, time "
-                                       "{:.6g} s, step size {:.3g} s (stable: {:.3g} s): take a smaller run.safety",
-                                       t, x.x, x.y, state_.step, state_.time, state_.time_step, stable_.limit));
+      throw NumericalError(
+          fmt::format("motion is no longer finite in triangle {} at ({:.4g}, {:.4g}) m, step {}, time "
+                      "{:.6g} s, step size {:.3g} s (stable: {:.3g} s): take a smaller run.safety",
+                      t, x.x, x.y, state_.step, state_.time, state_.time_step, stable_.limit));
     }
   }
-  throw NumericalError(fmt::format("energy is no longer finite at step {}, time {:.6g} s", state_.step, state_.time));
+  throw NumericalError(
+      fmt::format("energy is no longer finite at step {}, time {:.6g} s", state_.step, state_.time));
 }
 
 double Simulation::imbalance() {

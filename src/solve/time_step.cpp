@@ -35,7 +35,8 @@ StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* coh
       const double penalty = std::max(cohesive->material().penalty, cohesive->material().tangential_penalty);
       joints = std::max(joints, 0.5 * penalty * (1.0 / mass + 1.0 / other));
     }
-    const double shape = (sum + std::sqrt(std::max(0.0, sum * sum - 48.0 * area * area))) / (8.0 * area * area);
+    const double shape =
+        (sum + std::sqrt(std::max(0.0, sum * sum - 48.0 * area * area))) / (8.0 * area * area);
     const double rock = 6.0 * modulus / bulk.density() * shape;
     const double omega = std::sqrt(rock + 2.0 * joints);
     const double xi = 3.0 * bulk.viscosity(t) / bulk.density() * shape / (2.0 * omega);
@@ -48,12 +49,13 @@ StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* coh
 std::string StableStep::explain(const Mesh& mesh) const {
   const auto& v = mesh.triangles[at(triangle)];
   const Vec2 c = (1.0 / 3.0) * (mesh.vertices[at(v[0])] + mesh.vertices[at(v[1])] + mesh.vertices[at(v[2])]);
-  const char* cause = limit < 0.7 * without_viscosity      ? "its viscous damping"
+  const char* cause = limit < 0.7 * without_viscosity              ? "its viscous damping"
                       : without_viscosity < 0.7 * without_elements ? "the penalty of its cohesive elements"
                                                                    : "its size and stiffness";
-  return fmt::format("stable step {:.3g} s, limited by {} in triangle {} at ({:.4g}, {:.4g}) m "
-                     "({:.3g} s without viscosity, {:.3g} s without cohesive elements too)",
-                     limit, cause, triangle, c.x, c.y, without_viscosity, without_elements);
+  return fmt::format(
+      "stable step {:.3g} s, limited by {} in triangle {} at ({:.4g}, {:.4g}) m "
+      "({:.3g} s without viscosity, {:.3g} s without cohesive elements too)",
+      limit, cause, triangle, c.x, c.y, without_viscosity, without_elements);
 }
 
 }  // namespace crackle

@@ -42,7 +42,8 @@ void ring(State& state) {
   for (Index n = 0; n < state.node_count(); ++n) {
     const Vec2 x = state.node_reference(n);
     if (state.inverse_mass[static_cast<std::size_t>(n)] > 0.0) {
-      state.velocity[static_cast<std::size_t>(n)] = {1e-4 * std::sin(7.0 * x.x + x.y), 1e-4 * std::cos(5.0 * x.y)};
+      state.velocity[static_cast<std::size_t>(n)] = {1e-4 * std::sin(7.0 * x.x + x.y),
+                                                     1e-4 * std::cos(5.0 * x.y)};
     }
   }
 }
@@ -59,8 +60,9 @@ void whole_step(benchmark::State& run, bool elements, double damping) {
     simulation.step(dt);
     ++steps;
   }
-  run.counters["core_ns_per_triangle_step"] = benchmark::Counter(
-      1e-9 * triangles * static_cast<double>(steps) / threads, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  run.counters["core_ns_per_triangle_step"] =
+      benchmark::Counter(1e-9 * triangles * static_cast<double>(steps) / threads,
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void rock_forces(benchmark::State& run) {
@@ -72,8 +74,8 @@ void rock_forces(benchmark::State& run) {
     simulation.bulk().corner_forces(simulation.state(), 0, triangles, forces.data());
     benchmark::DoNotOptimize(forces.data());
   }
-  run.counters["core_ns_per_triangle_step"] =
-      benchmark::Counter(1e-9 * triangles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  run.counters["core_ns_per_triangle_step"] = benchmark::Counter(
+      1e-9 * triangles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void cohesive_tractions(benchmark::State& run) {
@@ -88,9 +90,18 @@ void cohesive_tractions(benchmark::State& run) {
 
 const std::vector<std::int64_t> sizes{10000, 100000, 1000000};
 
-BENCHMARK_CAPTURE(whole_step, all, true, 0.0)->ArgsProduct({sizes, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(whole_step, all_damped, true, 0.1)->ArgsProduct({sizes, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(whole_step, none, false, 0.0)->ArgsProduct({sizes, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(whole_step, all, true, 0.0)
+    ->ArgsProduct({sizes, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(whole_step, all_damped, true, 0.1)
+    ->ArgsProduct({sizes, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(whole_step, none, false, 0.0)
+    ->ArgsProduct({sizes, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(rock_forces)->ArgsProduct({sizes})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(cohesive_tractions)->ArgsProduct({sizes})->Unit(benchmark::kMillisecond)->UseRealTime();
 

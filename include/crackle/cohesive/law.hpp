@@ -72,7 +72,8 @@ class CohesiveLaw {
 
   /// Moves a point to a new opening and slip [m]: its damage, tractions and stored energy.
   /// @param length of the edge in the reference state [m]
-  void move(const CohesiveMaterial& material, double length, double opening, double slip, CohesivePoint& point) const;
+  void move(const CohesiveMaterial& material, double length, double opening, double slip,
+            CohesivePoint& point) const;
 
   /// Opening [m] at which an intact edge bears the normal traction, and slip at which it bears the
   /// shear traction [Pa]. @param normal, shear within the strength
@@ -108,8 +109,8 @@ struct ElasticTraction {
 };
 
 /// The elastic branch, shared by the fast loop over intact elements and by move().
-inline ElasticTraction elastic_traction(double stiffness, double curvature, double tensile_strength, double cohesion,
-                                        double tan_friction, double opening, double slip) {
+inline ElasticTraction elastic_traction(double stiffness, double curvature, double tensile_strength,
+                                        double cohesion, double tan_friction, double opening, double slip) {
   const double t = stiffness * opening;
   const double pull = t > 0.0 ? t : 0.0;
   const double normal = t - curvature * pull * pull / (4.0 * tensile_strength);
@@ -117,7 +118,8 @@ inline ElasticTraction elastic_traction(double stiffness, double curvature, doub
   const double s = stiffness * slip;
   const double push = s > 0.0 ? s : -s;
   const double limit = 1.0 + curvature;
-  return {normal, s - curvature * s * push / (4.0 * strength), t > limit * tensile_strength || push > limit * strength};
+  return {normal, s - curvature * s * push / (4.0 * strength),
+          t > limit * tensile_strength || push > limit * strength};
 }
 
 /// Young's modulus and shear modulus of rock with the penalty's compliance on all edges, over those

@@ -37,7 +37,9 @@ void for_each_block(Index items, const Work& work) {
 template <class Work>
 double sum_over_blocks(Index items, const Work& work) {
   std::vector<double> partial(static_cast<std::size_t>(block_count(items)));
-  for_each_block(items, [&](Index begin, Index end, Index b) { partial[static_cast<std::size_t>(b)] = work(begin, end); });
+  for_each_block(items, [&](Index begin, Index end, Index b) {
+    partial[static_cast<std::size_t>(b)] = work(begin, end);
+  });
   double sum = 0.0;
   for (const double p : partial) sum += p;
   return sum;

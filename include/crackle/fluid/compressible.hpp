@@ -32,7 +32,8 @@ struct CompressibleFluid {
   }
   /// Enthalpy per mass [J/kg], zero at the reference pressure but for p₀/ρ₀: h = p₀/ρ₀ + ∫ dp/ρ.
   double enthalpy(double pressure) const {
-    return (reference_pressure - bulk_modulus * std::expm1(-(pressure - reference_pressure) / bulk_modulus)) / density;
+    return (reference_pressure - bulk_modulus * std::expm1(-(pressure - reference_pressure) / bulk_modulus)) /
+           density;
   }
   /// Energy [J/m] of a mass in a volume: m h − p V; its change is pump work less work on the rock.
   double energy(double mass, double volume, double pressure) const {

@@ -42,7 +42,8 @@ class Fluid {
   ///   V(x*) + Δt² s p = (m/ρ₀) exp(−(p − p₀)/K_f),  s = Σ |∂V/∂x_i|² / m_i
   ///   v = v* + Δt p ∂V/∂x / m,  x = x* + Δt² p ∂V/∂x / m
   /// Stable at the dry step for any K_f. A soft cavity, (ω_f Δt)² = Δt² s K_f/V below 0.1, is pushed by
-  /// the pressure at the step's beginning, which conserves energy; from 0.3 on by that at its end. @throws NumericalError on a cavity without volume.
+  /// the pressure at the step's beginning, which conserves energy; from 0.3 on by that at its end. @throws
+  /// NumericalError on a cavity without volume.
   void advance(State& state, double dt);
 
   /// Rebuilds what is derived from the state (after a resume).

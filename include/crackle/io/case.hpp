@@ -34,7 +34,7 @@ struct Case {
     double fine_radius = 0.0;        ///< [m]
     double size_coarse = 0.0;        ///< [m]
     std::uint64_t seed = 1;
-    std::string file;                ///< a .msh file instead of a generator; made absolute when read
+    std::string file;  ///< a .msh file instead of a generator; made absolute when read
   } mesh;
 
   struct Rock {
@@ -49,10 +49,10 @@ struct Case {
   } rock;
 
   struct Cohesive {
-    std::string law = "evans_marathe";   ///< a registered law
-    std::string calibration = "exact";   ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
-    std::string insertion = "all";       ///< where cohesive elements are: "all" edges
-    double penalty = 0.0;                ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
+    std::string law = "evans_marathe";  ///< a registered law
+    std::string calibration = "exact";  ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
+    std::string insertion = "all";      ///< where cohesive elements are: "all" edges
+    double penalty = 0.0;               ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
   } cohesive;
 
   struct Contact {
@@ -82,7 +82,7 @@ struct Case {
     double density = 1000.0;        ///< at initial pressure [kg/m3]
     double initial_pressure = 0.0;  ///< [Pa]
     std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken"
-    std::vector<PumpStage> pump;    ///< sorted by time, not overlapping; a stage without end ends with the run
+    std::vector<PumpStage> pump;  ///< sorted by time, not overlapping; a stage without end ends with the run
   } fluid;
 
   struct Run {
@@ -94,11 +94,11 @@ struct Case {
   /// Where the local coordinates lie on Earth, for the seismic catalog. x points east; y points
   /// north and the section is horizontal at `depth`.
   struct Seismic {
-    double longitude = 0.0;  ///< of the origin [degree]
-    double latitude = 0.0;   ///< of the origin [degree]
-    double depth = 0.0;      ///< of the section [m], positive down
+    double longitude = 0.0;                      ///< of the origin [degree]
+    double latitude = 0.0;                       ///< of the origin [degree]
+    double depth = 0.0;                          ///< of the section [m], positive down
     std::string epoch = "2000-01-01T00:00:00Z";  ///< of simulated time zero, ISO 8601 UTC
-    double thickness = 1.0;  ///< out of plane, turns J/m into J for magnitudes [m]
+    double thickness = 1.0;                      ///< out of plane, turns J/m into J for magnitudes [m]
   } seismic;
 
   struct Output {

@@ -34,7 +34,9 @@ class Bulk {
   bool viscous() const { return viscous_; }
   double density() const { return density_; }
   double area(Index triangle) const { return area_[static_cast<std::size_t>(triangle)]; }
-  double viscosity(Index triangle) const { return viscous_ ? viscosity_[static_cast<std::size_t>(triangle)] : 0.0; }
+  double viscosity(Index triangle) const {
+    return viscous_ ? viscosity_[static_cast<std::size_t>(triangle)] : 0.0;
+  }
   const PlaneStiffness& stiffness() const { return stiffness_; }
 
   /// Forces [N/m] on the three corners of triangles [begin, end), in corner order, written (not

@@ -18,7 +18,8 @@ namespace crackle {
 class AbsorbingBoundary {
  public:
   /// @param loads constant force on every corner of the outer boundary [N/m] (others are zero)
-  AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density, std::span<const Vec2> loads);
+  AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
+                    std::span<const Vec2> loads);
 
   /// After the rock has moved without it: moves the boundary nodes on by their constant load, and
   /// damps them; books what is radiated.
@@ -31,7 +32,7 @@ class AbsorbingBoundary {
   struct Entry {
     Index node;
     Vec2 normal;
-    double normal_dashpot;   // [kg/(s m)]
+    double normal_dashpot;  // [kg/(s m)]
     double tangent_dashpot;
   };
   struct Load {

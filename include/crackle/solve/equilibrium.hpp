@@ -19,7 +19,8 @@ namespace crackle {
 ///        place (they may follow its motion, as a pressure does); may be empty
 /// @return displacement of every vertex [m]
 /// @throws NumericalError when the system is singular (nothing holds the body)
-std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh, const Bulk& bulk, const std::vector<char>& fixed,
+std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh, const Bulk& bulk,
+                                      const std::vector<char>& fixed,
                                       const std::function<void(const State&, std::span<Vec2>)>& add_loads);
 
 }  // namespace crackle

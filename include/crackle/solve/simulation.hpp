@@ -22,18 +22,18 @@ namespace crackle {
 struct Scene {
   std::shared_ptr<const Mesh> mesh;  ///< excavated
   PlaneStiffness stiffness;
-  double density = 0.0;              ///< [kg/m3]
-  Sym2 stress;                       ///< in situ, effective [Pa]
+  double density = 0.0;  ///< [kg/m3]
+  Sym2 stress;           ///< in situ, effective [Pa]
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
   CohesiveMaterial cohesive;
-  ContactMaterial contact;           ///< of faces that have moved past their partner
-  bool absorbing_boundary = false;   ///< outer boundary: absorbing, or fixed
-  std::vector<Index> cracks;         ///< mesh edges broken from the start
+  ContactMaterial contact;          ///< of faces that have moved past their partner
+  bool absorbing_boundary = false;  ///< outer boundary: absorbing, or fixed
+  std::vector<Index> cracks;        ///< mesh edges broken from the start
   std::optional<CompressibleFluid> fluid;
-  double initial_pressure = 0.0;     ///< of the fluid [Pa]
+  double initial_pressure = 0.0;  ///< of the fluid [Pa]
   Pump pump;
-  double thickness = 1.0;            ///< for magnitudes [m]
+  double thickness = 1.0;  ///< for magnitudes [m]
 };
 
 /// Energies per metre of thickness [J/m], at full steps; stored ones are changes since the start of
@@ -104,8 +104,8 @@ class Simulation {
   std::vector<Vec2> corner_force_;  // of corners that share their node with others
   std::vector<Index> shared_nodes_;
   std::vector<Vec2> velocity_before_;
-  Energies reference_;   // stored energies at the start
-  double scale_ = 0.0;   // largest energy so far
+  Energies reference_;  // stored energies at the start
+  double scale_ = 0.0;  // largest energy so far
   Index geostatic_slips_ = 0;
 };
 

@@ -16,8 +16,8 @@
 namespace crackle {
 
 struct StableStep {
-  double limit = 0.0;     ///< largest stable step [s]
-  Index triangle = -1;    ///< that limits it
+  double limit = 0.0;              ///< largest stable step [s]
+  Index triangle = -1;             ///< that limits it
   double without_viscosity = 0.0;  ///< what it would be there without viscosity [s]
   double without_elements = 0.0;   ///< without viscosity and cohesive elements [s]
   /// One line: what limits the step, and where.

@@ -39,14 +39,14 @@ struct CohesivePoint {
 struct CohesiveHistory {
   Index element = -1;
   std::array<CohesivePoint, 3> point;
-  double fracture_energy = 0.0;  ///< dissipated by breaking [J/m]
-  double sliding_work = 0.0;     ///< part of fracture_energy done in shear [J/m]
-  double friction_energy = 0.0;  ///< dissipated by friction [J/m]
-  double yield_time = -1.0;      ///< first damage [s]; -1: none yet
-  double kinetic_at_yield = 0.0; ///< of its four nodes [J/m]
-  double kinetic_rise = 0.0;     ///< largest rise above kinetic_at_yield [J/m]
-  double break_time = -1.0;      ///< [s]; -1: not broken
-  std::int8_t mode = 0;          ///< FailureMode once broken
+  double fracture_energy = 0.0;   ///< dissipated by breaking [J/m]
+  double sliding_work = 0.0;      ///< part of fracture_energy done in shear [J/m]
+  double friction_energy = 0.0;   ///< dissipated by friction [J/m]
+  double yield_time = -1.0;       ///< first damage [s]; -1: none yet
+  double kinetic_at_yield = 0.0;  ///< of its four nodes [J/m]
+  double kinetic_rise = 0.0;      ///< largest rise above kinetic_at_yield [J/m]
+  double break_time = -1.0;       ///< [s]; -1: not broken
+  std::int8_t mode = 0;           ///< FailureMode once broken
 };
 
 /// Forces per metre of thickness [N/m] that an element puts on face a at its two ends; face b
@@ -57,15 +57,16 @@ struct EndForces {
 
 /// Cohesive elements as plain arrays, one entry an element.
 struct CohesiveElements {
-  std::vector<Index> edge;                      ///< of the mesh
-  std::vector<std::array<Index, 4>> nodes;      ///< a0, a1, b0, b1: faces a and b at ends 0 and 1
-  std::vector<Vec2> direction;                  ///< end1 − end0 in the reference state [m]
-  std::vector<double> inverse_length;           ///< of direction [1/m]
-  std::vector<std::array<double, 4>> offset;    ///< opening0, slip0, opening1, slip1 that make the traction borne at insertion [m]
-  std::vector<EndForces> force;                 ///< of the last evaluation; one more at the end, zero
+  std::vector<Index> edge;                  ///< of the mesh
+  std::vector<std::array<Index, 4>> nodes;  ///< a0, a1, b0, b1: faces a and b at ends 0 and 1
+  std::vector<Vec2> direction;              ///< end1 − end0 in the reference state [m]
+  std::vector<double> inverse_length;       ///< of direction [1/m]
+  std::vector<std::array<double, 4>>
+      offset;  ///< opening0, slip0, opening1, slip1 that make the traction borne at insertion [m]
+  std::vector<EndForces> force;  ///< of the last evaluation; one more at the end, zero
   std::vector<CohesiveStatus> status;
-  std::vector<Index> history_of;                ///< into histories; -1: intact
-  std::vector<CohesiveHistory> histories;       ///< in order of activation
+  std::vector<Index> history_of;           ///< into histories; -1: intact
+  std::vector<CohesiveHistory> histories;  ///< in order of activation
 
   Index count() const { return static_cast<Index>(edge.size()); }
 };
@@ -117,21 +118,21 @@ struct ContactState {
 struct State {
   std::shared_ptr<const Mesh> mesh;
 
-  double time = 0.0;       ///< [s]
+  double time = 0.0;  ///< [s]
   std::int64_t step = 0;
   double time_step = 0.0;  ///< of the last step [s]
 
   // nodes
   std::vector<Index> node_of_corner;
-  std::vector<Index> node_corners;  ///< corners grouped by node
-  std::vector<Index> node_first;    ///< first of a node in node_corners
-  std::vector<Index> node_size;     ///< corners of a node
-  std::vector<Vec2> displacement;   ///< from the in-situ state [m]
-  std::vector<Vec2> velocity;       ///< half a step behind the displacement [m/s]
-  std::vector<double> inverse_mass; ///< [m/kg]; 0: fixed
+  std::vector<Index> node_corners;   ///< corners grouped by node
+  std::vector<Index> node_first;     ///< first of a node in node_corners
+  std::vector<Index> node_size;      ///< corners of a node
+  std::vector<Vec2> displacement;    ///< from the in-situ state [m]
+  std::vector<Vec2> velocity;        ///< half a step behind the displacement [m/s]
+  std::vector<double> inverse_mass;  ///< [m/kg]; 0: fixed
 
   // triangles
-  std::vector<Sym2> strain_rate;    ///< of the last evaluation [1/s]; empty without viscosity
+  std::vector<Sym2> strain_rate;  ///< of the last evaluation [1/s]; empty without viscosity
 
   CohesiveElements cohesive;
   std::vector<Index> element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i;
@@ -142,7 +143,8 @@ struct State {
 
   Index node_count() const { return static_cast<Index>(displacement.size()); }
   Vec2 reference(Index corner) const {
-    return mesh->vertices[static_cast<std::size_t>(mesh->triangles[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)])];
+    return mesh->vertices[static_cast<std::size_t>(
+        mesh->triangles[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)])];
   }
   /// Reference position of a node [m].
   Vec2 node_reference(Index node) const {
@@ -150,7 +152,8 @@ struct State {
   }
   /// Current position of a corner [m].
   Vec2 position(Index corner) const {
-    return reference(corner) + displacement[static_cast<std::size_t>(node_of_corner[static_cast<std::size_t>(corner)])];
+    return reference(corner) +
+           displacement[static_cast<std::size_t>(node_of_corner[static_cast<std::size_t>(corner)])];
   }
 };
 

@@ -44,7 +44,8 @@ Pull pull(const std::string& law, Vec2 along, double reach, double turn) {
   Pull result;
   const auto force = [&] {  // on the upper triangle
     const EndForces& f = state.cohesive.force[0];
-    const bool upper_is_a = state.mesh->edges[static_cast<std::size_t>(state.cohesive.edge[0])].triangle[0] == 0;
+    const bool upper_is_a =
+        state.mesh->edges[static_cast<std::size_t>(state.cohesive.edge[0])].triangle[0] == 0;
     return (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1);
   };
   const int n = 100000;
@@ -71,8 +72,8 @@ TEST(CohesiveElement, PulledApartInModeOneGivesItsFractureEnergy) {
   for (const char* law : {"evans_marathe", "linear"}) {
     for (const double turn : {0.0, 1.1}) {
       const Pull p = pull(law, {0, 1}, 2e-5, turn);
-      std::printf("%s, turned %.1f rad: work %.5f, booked %.5f of 5 J/m2, peak %.4f of 3 MPa\n", law, turn, p.work, p.booked,
-                  p.peak / 1e6);
+      std::printf("%s, turned %.1f rad: work %.5f, booked %.5f of 5 J/m2, peak %.4f of 3 MPa\n", law, turn,
+                  p.work, p.booked, p.peak / 1e6);
       EXPECT_TRUE(p.broken);
       EXPECT_NEAR(p.work, 5.0, 5e-3);
       EXPECT_NEAR(p.booked, 5.0, 5e-3);
@@ -84,7 +85,8 @@ TEST(CohesiveElement, PulledApartInModeOneGivesItsFractureEnergy) {
 TEST(CohesiveElement, SlidInModeTwoGivesItsFractureEnergy) {
   for (const char* law : {"evans_marathe", "linear"}) {
     const Pull p = pull(law, {1, 0}, 6e-5, 0.0);
-    std::printf("%s: work %.5f, booked %.5f of 80 J/m2, peak %.4f of 24 MPa\n", law, p.work, p.booked, p.peak / 1e6);
+    std::printf("%s: work %.5f, booked %.5f of 80 J/m2, peak %.4f of 24 MPa\n", law, p.work, p.booked,
+                p.peak / 1e6);
     EXPECT_TRUE(p.broken);
     EXPECT_NEAR(p.work, 80.0, 8e-2);
     EXPECT_NEAR(p.booked, 80.0, 8e-2);
@@ -99,7 +101,8 @@ TEST(CohesiveElement, RepelsOverlap) {
 }
 
 TEST(CohesiveElement, BalanceHoldsASplitMeshUnderAnyStress) {
-  auto mesh = std::make_shared<const Mesh>(jittered(structured_rectangle({0, 0}, {1, 1}, 12, 12, MeshPattern::cross), 0.2, 7));
+  auto mesh = std::make_shared<const Mesh>(
+      jittered(structured_rectangle({0, 0}, {1, 1}, 12, 12, MeshPattern::cross), 0.2, 7));
   const Sym2 stress{-7.05e6, -4.9e6, 1.3e6};
   for (const char* law : {"evans_marathe", "linear"}) {
     State state = make_split_state(mesh);
@@ -113,7 +116,8 @@ TEST(CohesiveElement, BalanceHoldsASplitMeshUnderAnyStress) {
       if (edge.kind != EdgeKind::outer) continue;
       const auto i = static_cast<std::size_t>(3 * edge.triangle[0] + edge.side[0]);
       const auto j = static_cast<std::size_t>(3 * edge.triangle[0] + (edge.side[0] + 1) % 3);
-      const Vec2 t = 0.5 * (stress * right_normal(state.reference(static_cast<Index>(j)) - state.reference(static_cast<Index>(i))));
+      const Vec2 t = 0.5 * (stress * right_normal(state.reference(static_cast<Index>(j)) -
+                                                  state.reference(static_cast<Index>(i))));
       forces[i] += t;
       forces[j] += t;
     }
@@ -122,7 +126,8 @@ TEST(CohesiveElement, BalanceHoldsASplitMeshUnderAnyStress) {
     cohesive.add_tractions(state);
     double worst = 0.0, traction_error = 0.0;
     for (Index e = 0; e < state.cohesive.count(); ++e) {
-      const Edge& edge = mesh->edges[static_cast<std::size_t>(state.cohesive.edge[static_cast<std::size_t>(e)])];
+      const Edge& edge =
+          mesh->edges[static_cast<std::size_t>(state.cohesive.edge[static_cast<std::size_t>(e)])];
       const EndForces& f = state.cohesive.force[static_cast<std::size_t>(e)];
       for (int end = 0; end < 2; ++end) {
         const Vec2 g = end == 0 ? f.end0 : f.end1;

@@ -65,8 +65,8 @@ TEST_P(EveryLaw, ExactCalibrationDissipatesTheFractureEnergies) {
   const auto m = granite(Calibration::exact);
   const Work one = separate(*law, m, 3e-3, 0.0, 0.0, 3e-5, 200000);
   const Work two = separate(*law, m, 3e-3, std::numbers::pi / 2, 0.0, 8e-5, 400000);
-  std::printf("%s: G_I %.6f of 5 (error %.1e), G_II %.6f of 80 (error %.1e)\n", law->name().c_str(), one.normal,
-              one.normal / 5.0 - 1.0, two.shear, two.shear / 80.0 - 1.0);
+  std::printf("%s: G_I %.6f of 5 (error %.1e), G_II %.6f of 80 (error %.1e)\n", law->name().c_str(),
+              one.normal, one.normal / 5.0 - 1.0, two.shear, two.shear / 80.0 - 1.0);
   EXPECT_TRUE(one.broken && two.broken);
   EXPECT_NEAR(one.normal, 5.0, 5e-3);
   EXPECT_NEAR(two.shear, 80.0, 8e-2);
@@ -174,7 +174,8 @@ TEST_P(EveryLaw, ElasticInverseIsExact) {
 
 TEST(ArtificialCompliance, MatchesTheTableOfEquilateralMeshes) {
   const double e = 35e9, nu = 0.27, plane = e / (1 - nu * nu);
-  EXPECT_NEAR(artificial_modulus_ratio(plane, e / 2 / (1 + nu), 3.43 * e, 2.0 * std::sqrt(3.0)).young, 0.6474, 5e-4);
+  EXPECT_NEAR(artificial_modulus_ratio(plane, e / 2 / (1 + nu), 3.43 * e, 2.0 * std::sqrt(3.0)).young, 0.6474,
+              5e-4);
 }
 
 }  // namespace
