@@ -157,6 +157,10 @@ Vec2 Cohesive::place(const State& state, Index element) {
 void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const {
   CohesiveElements& c = state.cohesive;
   const std::size_t i = at(h.element);
+  if (c.status[i] == CohesiveStatus::released) {  // general contact has taken over
+    c.force[i] = {};
+    return;
+  }
   const double length = norm(c.direction[i]);
   const EndSeparation w = separation(state, h.element);
   const std::array<double, 3> opening{w.opening0, w.opening1, 0.5 * (w.opening0 + w.opening1)};
@@ -213,13 +217,9 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   h.friction_energy += friction;
   sum.fracture += fracture;
   sum.friction += friction;
-  if (c.status[i] == CohesiveStatus::released) {
-    c.force[i] = {};
-  } else {
-    const auto& p = h.point;
-    c.force[i] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
-                            p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
-  }
+  const auto& p = h.point;
+  c.force[i] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
+                          p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
 }
 
 void Cohesive::add_tractions(State& state) {
@@ -294,6 +294,8 @@ void Cohesive::cut(State& state, Index element) const {
 
 double Cohesive::stored_energy(const State& state) const {
   const CohesiveElements& c = state.cohesive;
+  const CohesiveMaterial& m = material_;
+  const double curvature = law_->curvature();
   return sum_over_blocks(c.count(), [&](Index begin, Index end) {
     double sum = 0.0;
     for (Index i = begin; i < end; ++i) {
@@ -304,11 +306,12 @@ double Cohesive::stored_energy(const State& state) const {
         continue;
       }
       const EndSeparation w = separation(state, i);
-      sum += length / 6.0 *
-             (law_->elastic_energy(material_, length, w.opening0, w.slip0) +
-              law_->elastic_energy(material_, length, w.opening1, w.slip1) +
-              4.0 * law_->elastic_energy(material_, length, 0.5 * (w.opening0 + w.opening1),
-                                         0.5 * (w.slip0 + w.slip1)));
+      const auto energy = [&](double opening, double slip) {
+        return elastic_energy(m.penalty / length, curvature, m.tensile_strength, m.cohesion, m.tan_friction, opening,
+                              slip);
+      };
+      sum += length / 6.0 * (energy(w.opening0, w.slip0) + energy(w.opening1, w.slip1) +
+                             4.0 * energy(0.5 * (w.opening0 + w.opening1), 0.5 * (w.slip0 + w.slip1)));
     }
     return sum;
   });

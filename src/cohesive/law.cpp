@@ -75,20 +75,6 @@ double CohesiveLaw::elastic_slip(const CohesiveMaterial& m, double length, doubl
   return std::copysign(2.0 * f * (1.0 - std::sqrt(std::max(0.0, 1.0 - std::abs(shear) / f))) / k, shear);
 }
 
-double CohesiveLaw::elastic_energy(const CohesiveMaterial& m, double length, double opening,
-                                   double slip) const {
-  const double k = stiffness_of(m, length);
-  const double c = curvature();
-  const double normal =
-      elastic_traction(k, c, m.tensile_strength, m.cohesion, m.tan_friction, opening, slip).normal;
-  const double strength = shear_strength(m, normal);
-  const double o = std::max(opening, 0.0);
-  const double s = std::abs(slip);
-  // ∫ (k o − c k² o²/(4 f)) do
-  return 0.5 * k * opening * opening - c * k * k * o * o * o / (12.0 * m.tensile_strength) + 0.5 * k * s * s -
-         c * k * k * s * s * s / (12.0 * strength);
-}
-
 void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening, double slip,
                        CohesivePoint& p) const {
   const double k = stiffness_of(m, length);
@@ -102,7 +88,7 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
       p.normal = t.normal;
       p.shear = t.shear;
       p.friction = 0.0;
-      p.stored = elastic_energy(m, length, opening, slip);
+      p.stored = elastic_energy(k, c, m.tensile_strength, m.cohesion, m.tan_friction, opening, slip);
       return;
     }
   }

@@ -80,9 +80,6 @@ class CohesiveLaw {
   double elastic_opening(const CohesiveMaterial& material, double length, double normal) const;
   double elastic_slip(const CohesiveMaterial& material, double length, double normal, double shear) const;
 
-  /// Recoverable energy [J/m2] of an intact point.
-  double elastic_energy(const CohesiveMaterial& material, double length, double opening, double slip) const;
-
   /// Softening length in mode I, and in mode II at normal traction `normal` [m].
   double softening_opening(const CohesiveMaterial& material, double length) const;
   double softening_slip(const CohesiveMaterial& material, double length, double normal) const;
@@ -120,6 +117,19 @@ inline ElasticTraction elastic_traction(double stiffness, double curvature, doub
   const double limit = 1.0 + curvature;
   return {normal, s - curvature * s * push / (4.0 * strength),
           t > limit * tensile_strength || push > limit * strength};
+}
+
+/// Recoverable energy of an intact point [J/m2]: ∫ (k o − c k² o²/(4 f)) do and the same along.
+inline double elastic_energy(double stiffness, double curvature, double tensile_strength, double cohesion,
+                             double tan_friction, double opening, double slip) {
+  const double t = stiffness * opening;
+  const double pull = t > 0.0 ? t : 0.0;
+  const double normal = t - curvature * pull * pull / (4.0 * tensile_strength);
+  const double strength = cohesion - (normal < 0.0 ? normal : 0.0) * tan_friction;
+  const double s = stiffness * slip;
+  const double push = s > 0.0 ? s : -s;
+  return (0.5 * (t * t + s * s) - curvature * (pull * pull * pull / tensile_strength + push * push * push / strength) / 12.0) /
+         stiffness;
 }
 
 /// Young's modulus and shear modulus of rock with the penalty's compliance on all edges, over those
