@@ -47,7 +47,8 @@ struct Energies {
   double viscous = 0.0;
   double fluid = 0.0;
   double external = 0.0;  ///< work of the pump, less what an absorbing boundary took
-  double residual = 0.0;  ///< |stored + dissipated − external| over the largest of them so far
+  double residual = 0.0;  ///< |stored + dissipated − external| over the largest of them so far (or what
+                          ///< strains of 3e-7 everywhere hold, if that is more)
 };
 
 /// The dynamic loop: explicit steps of a scene from its geostatic equilibrium on.
