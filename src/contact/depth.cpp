@@ -25,6 +25,32 @@ Foot foot(const PlacedSide& side, Vec2 x) {
 
 bool behind(const PlacedSide& side, Vec2 x) { return cross(side.end - side.start, x - side.start) > 0.0; }
 
+Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
+
+enum class Corner { beside, inside, flat };
+
+// Depth in the rounded corner where side `a` ends and `b` starts. Corner::beside: the point is not
+// in it; flat: there is no corner to round.
+Corner corner_depth(const PlacedSide& a, const PlacedSide& b, double radius, Vec2 x, Depth& depth) {
+  const Vec2 ta = unit(a.end - a.start), tb = unit(b.end - b.start);
+  const double turn = cross(ta, tb);
+  if (radius == 0.0 || turn <= 0.0) return Corner::flat;
+  const Vec2 na = right_normal(ta), nb = right_normal(tb);
+  const Vec2 pa = a.end - radius * na, pb = b.start - radius * nb;
+  const Vec2 c = pa + (cross(pb - pa, tb) / turn) * ta;
+  const Vec2 r = x - c;
+  if (dot(r, ta) <= 0.0 || dot(r, tb) >= 0.0) return Corner::beside;
+  const double distance = norm(r);
+  const Vec2 u = (1.0 / distance) * r;
+  depth.value = radius - distance;
+  depth.normal = u;
+  const double alpha = cross(u, nb) / turn, beta = cross(na, u) / turn;
+  depth.bearings = 2;
+  depth.bearing[0] = {-1, dot(c - a.start, ta) / norm(a.end - a.start), alpha * na, alpha / (alpha + beta)};
+  depth.bearing[1] = {-1, dot(c - b.start, tb) / norm(b.end - b.start), beta * nb, beta / (alpha + beta)};
+  return Corner::inside;
+}
+
 }  // namespace
 
 bool find_depth(const FreeSides& sides, const std::vector<PlacedSide>& placed, Index self, Index target,
@@ -33,33 +59,40 @@ bool find_depth(const FreeSides& sides, const std::vector<PlacedSide>& placed, I
   const PlacedSide& here = placed[at(target)];
   const Foot nearest = foot(here, x);
   if (nearest.distance2 > side.reach * side.reach) return false;
-  const bool at_start = nearest.fraction == 0.0, at_end = nearest.fraction == 1.0;
   bool inside = behind(here, x);
   for (const bool end : {false, true}) {
-    const bool at_vertex = end ? at_end : at_start;
+    const bool at_vertex = nearest.fraction == (end ? 1.0 : 0.0);
     const Index other = end ? side.next : side.previous;
-    const double angle = end ? side.angle_at_end : sides[other].angle_at_end;
-    if (angle > one_surface || other == self) {
+    const FreeSide& first = end ? side : sides[other];  // of the two, in the order of the surface
+    if (first.angle_at_end > one_surface || other == self) {
       if (at_vertex) return false;
       continue;
     }
     const PlacedSide& there = placed[at(other)];
+    const PlacedSide& a = end ? here : there;
+    const PlacedSide& b = end ? there : here;
+    const Corner corner = corner_depth(a, b, first.radius_at_end, x, depth);
+    if (corner == Corner::inside) {
+      depth.bearing[end ? 0 : 1].side = target;
+      depth.bearing[end ? 1 : 0].side = other;
+      return target < other;  // the other side would say the same
+    }
     const double distance2 = foot(there, x).distance2;
     if (distance2 < nearest.distance2 || (distance2 == nearest.distance2 && other < target)) return false;
     if (!at_vertex) continue;
-    const Vec2 e = here.end - here.start, f = there.end - there.start;
-    const bool convex = (end ? cross(e, f) : cross(f, e)) > 0.0;
+    if (corner == Corner::beside) return false;
+    const bool convex = cross(a.end - a.start, b.end - b.start) > 0.0;
     inside = convex ? inside && behind(there, x) : inside || behind(there, x);
   }
   const double distance = std::sqrt(nearest.distance2);
-  depth.fraction = nearest.fraction;
   depth.value = inside ? distance : -distance;
-  if ((at_start || at_end) && distance > 0.0) {
+  if ((nearest.fraction == 0.0 || nearest.fraction == 1.0) && distance > 0.0) {
     depth.normal = (-1.0 / depth.value) * nearest.from;
   } else {
-    const Vec2 e = here.end - here.start;
-    depth.normal = (1.0 / norm(e)) * right_normal(e);
+    depth.normal = unit(right_normal(here.end - here.start));
   }
+  depth.bearings = 1;
+  depth.bearing[0] = {target, nearest.fraction, depth.normal, 1.0};
   return true;
 }
 

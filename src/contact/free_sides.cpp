@@ -10,6 +10,11 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+constexpr double pi = 3.141592653589793;
+// Corners that turn by at least this [rad] are rounded, with this share of the shorter side as radius,
+// and not so much that more than that share of a side goes.
+constexpr double least_turn = 0.2, radius_of_side = 0.05, cut_of_side = 0.3;
+
 // True if the mesh falls into several parts, joined by no edge.
 bool falls_apart(const Mesh& mesh) {
   std::vector<char> reached(mesh.triangles.size(), 0);
@@ -94,7 +99,16 @@ void FreeSides::build(const State& state) {
     side.reach = 0.5 * std::min(side.length, cross(along, up) / side.length);
   }
   for (FreeSide& side : sides_) connect(state, side);
-  for (Index i = 0; i < count(); ++i) sides_[at(sides_[at(i)].next)].previous = i;
+  for (Index i = 0; i < count(); ++i) {
+    FreeSide& side = sides_[at(i)];
+    FreeSide& next = sides_[at(side.next)];
+    next.previous = i;
+    const double turn = pi - side.angle_at_end;
+    if (turn < least_turn) continue;
+    const double shorter = std::min(side.length, next.length);
+    side.radius_at_end = std::min(
+        {radius_of_side * shorter, cut_of_side * shorter / std::tan(0.5 * turn), side.reach, next.reach});
+  }
 }
 
 void FreeSides::connect(const State& state, FreeSide& side) const {

@@ -18,9 +18,10 @@ struct FreeSide {
   bool taken_over = false;  ///< a face of an element released just now
   Index previous = -1;      ///< free sides before and after it along the surface of its body
   Index next = -1;
-  double angle_at_end = 0.0;  ///< of the rock between this side and the next, as meshed [rad]
-  double length = 0.0;        ///< as meshed [m]
-  double reach = 0.0;         ///< depth up to which a point behind it is seen [m]
+  double angle_at_end = 0.0;   ///< of the rock between this side and the next, as meshed [rad]
+  double radius_at_end = 0.0;  ///< of the convex corner there [m]; 0: sharp or flat
+  double length = 0.0;         ///< as meshed [m]
+  double reach = 0.0;          ///< depth up to which a point behind it is seen [m]
 };
 
 /// A free side's ends in their current places [m].

@@ -127,10 +127,10 @@ void GeneralContact::evaluate(State& state, double& taken_over) {
 }
 
 void GeneralContact::apply(State& state, double dt) const {
-  for (const TouchForce& f : forces_) {
-    for (std::size_t i = 0; i < 4; ++i) {
+  for (const SideForce& f : forces_) {
+    for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t n = at(f.node[i]);
-      state.velocity[n] += (dt * state.inverse_mass[n] * f.share[i]) * f.on_point;
+      state.velocity[n] += (dt * state.inverse_mass[n] * f.share[i]) * f.force;
     }
   }
 }

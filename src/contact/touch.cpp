@@ -39,6 +39,24 @@ Point make_point(const State& state, const FreeSide& side, const PlacedSide& pla
   return {place, 0.5 * (placed.start + placed.end), 0.5 * (v0 + v1), {0.5, 0.5}};
 }
 
+// Motion of the place that bears a point [m/s].
+struct Motion {
+  Vec2 velocity;
+  double relative = 0.0;  // of any place near it against the point, at most
+};
+
+Motion motion_of(const State& state, const FreeSides& sides, const Depth& depth, Vec2 point_velocity) {
+  Motion motion;
+  for (std::size_t j = 0; j < depth.bearings; ++j) {
+    const Bearing& b = depth.bearing[j];
+    const auto& node = sides[b.side].node;
+    const Vec2 v0 = state.velocity[at(node[0])], v1 = state.velocity[at(node[1])];
+    motion.velocity += b.share * ((1.0 - b.fraction) * v0 + b.fraction * v1);
+    motion.relative = std::max({motion.relative, norm(point_velocity - v0), norm(point_velocity - v1)});
+  }
+  return motion;
+}
+
 // Half, as the points of the other face look as well; Simpson's rule.
 double weight(Index place, double length) { return 0.5 * length * (place == 2 ? 4.0 : 1.0) / 6.0; }
 
@@ -136,9 +154,8 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
     for (std::size_t i = 0; i < count; ++i) {
       const Found& f = found[i];
       const FreeSide& other = sides[f.target];
-      const Vec2 v0 = state.velocity[at(other.node[0])], v1 = state.velocity[at(other.node[1])];
-      const double motion =
-          slack * dt * std::max(norm(point.velocity - v0), norm(point.velocity - v1)) + 1e-12 * length;
+      const Motion target = motion_of(state, sides, f.depth, point.velocity);
+      const double motion = slack * dt * target.relative + 1e-12 * length;
       const bool taken_over = f.old != nullptr && side.taken_over;
       ContactPoint p;
       if (f.old == nullptr) {
@@ -161,10 +178,9 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
 
       const double overlap = std::max(0.0, p.depth - p.offset);
       const Vec2 along{-f.depth.normal.y, f.depth.normal.x};
-      const Vec2 velocity = (1.0 - f.depth.fraction) * v0 + f.depth.fraction * v1;
       const double before = friction_traction(m, length, p);
       const double plastic = p.plastic_slip;
-      if (!taken_over) p.slip += dt * dot(point.velocity - velocity, along);
+      if (!taken_over) p.slip += dt * dot(point.velocity - target.velocity, along);
       const double friction =
           k_t > 0.0 ? coulomb_traction(k_t, p.slip, m.tan_friction * k_n * overlap, p.plastic_slip) : 0.0;
       const double w = weight(place, length);
@@ -173,9 +189,14 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
       touches.points.push_back(p);
       if (taken_over) touches.taken_over += energy(m, length, p);
       if (overlap == 0.0) continue;
-      touches.forces.push_back({w * (k_n * overlap * f.depth.normal - friction * along),
-                                {side.node[0], side.node[1], other.node[0], other.node[1]},
-                                {point.share[0], point.share[1], f.depth.fraction - 1.0, -f.depth.fraction}});
+      const double push = w * k_n * overlap;
+      touches.forces.push_back({push * f.depth.normal - (w * friction) * along, side.node, point.share});
+      for (std::size_t j = 0; j < f.depth.bearings; ++j) {
+        const Bearing& b = f.depth.bearing[j];
+        touches.forces.push_back({(w * friction * b.share) * along - push * b.direction,
+                                  sides[b.side].node,
+                                  {1.0 - b.fraction, b.fraction}});
+      }
     }
     if (!side.taken_over) touches.friction += std::max(0.0, lost);  // gone out of reach under load
   }

@@ -14,7 +14,7 @@ namespace crackle {
 /// Contacts found for a range of sides.
 struct Touches {
   std::vector<ContactPoint> points;
-  std::vector<TouchForce> forces;
+  std::vector<SideForce> forces;
   double friction = 0.0;    ///< dissipated by friction, and by contacts lost under load [J/m]
   double taken_over = 0.0;  ///< stored in points that a released pair handed over now [J/m]
 };

@@ -8,9 +8,10 @@
 //   E = Σ ½ w L ½ k_n ⟨d − d₀⟩²,   k_n = p_n / L                                        [J/m]
 // with L the length of the side that carries the point; the sum runs over the points of both faces,
 // hence the ½. The force is −∂E/∂x: on the point along the side's normal, and by projection on the
-// ends of the side. It is zero at first touch, conserves momentum, and since d is a distance to the
-// whole surface it does not know how the surface is cut into sides. Two faces that lie on one
-// another meet p_n / L per area, as a matched broken element does.
+// ends of the side. Convex corners are rounded a little for this (src/contact/depth.hpp). It is zero at first
+// touch, conserves momentum, and since d is a distance to the whole surface it does not know how the surface
+// is cut into sides. Two faces that lie on one another meet p_n / L per area, as a matched broken element
+// does.
 //
 // d₀ is the offset: a point that lies behind a side when it is first looked at bears nothing there,
 // and a pair that is handed over from a broken element goes on bearing what it bore.
@@ -45,11 +46,11 @@ struct ContactMaterial {
   double tan_friction = 0.0;
 };
 
-/// Force of one point in contact, and how its nodes share it.
-struct TouchForce {
-  Vec2 on_point;                  ///< [N/m]
-  std::array<Index, 4> node{};    ///< ends of the point's side, ends of the target
-  std::array<double, 4> share{};  ///< of on_point; those of the target are negative
+/// A force on a side, and how the nodes at its ends share it.
+struct SideForce {
+  Vec2 force;  ///< [N/m]
+  std::array<Index, 2> node{};
+  std::array<double, 2> share{};
 };
 
 /// Contact between all free sides of a state; costs nothing until there can be any.
@@ -89,7 +90,7 @@ class GeneralContact {
   ContactMaterial material_;
   std::unique_ptr<Search> search_;  // free sides and which of them may meet; follows from the state
   std::vector<Index> released_;
-  std::vector<TouchForce> forces_;
+  std::vector<SideForce> forces_;
 };
 
 }  // namespace crackle

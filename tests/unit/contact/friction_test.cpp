@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "world.hpp"
+
+namespace crackle::test {
+namespace {
+
+constexpr double g = 9.81;
+
+WorldMaterial rough(double friction) {
+  WorldMaterial m;
+  m.contact.tan_friction = friction;
+  m.damping_ratio = 0.2;
+  return m;
+}
+
+// A block of 0.2 m x 0.1 m that lies on a fixed base cut into `cuts` sides, come to rest under a
+// gravity that pulls straight down.
+World block_on_base(double friction, int cuts) {
+  World world({structured_rectangle({-0.1, 0.0}, {0.1, 0.1}, 3, 2, MeshPattern::cross),
+               structured_rectangle({-0.3, -0.1}, {0.9, 0.0}, cuts, 1, MeshPattern::right)},
+              rough(friction));
+  world.fix(1);
+  world.gravity = {0.0, -g};
+  world.settle(0.15, 300.0);
+  return world;
+}
+
+TEST(ContactFriction, StaysOnAGentleSlope) {
+  World world = block_on_base(0.3, 13);
+  const double slope = std::atan(0.27);
+  world.gravity = g * Vec2{std::sin(slope), -std::cos(slope)};
+  world.settle(0.2, 300.0);
+  const double before = world.centre(0).x, start = world.state.time;
+  while (world.state.time < start + 0.3) world.step();
+  const double creep = std::abs(world.centre(0).x - before) / 0.3;
+  std::printf("  tan theta 0.27 < mu 0.3: creeps at %.2e m/s\n", creep);
+  EXPECT_LT(creep, 1e-6);
+}
+
+TEST(ContactFriction, SlidesDownASteepSlope) {
+  World world = block_on_base(0.3, 13);
+  const double slope = std::acos(-1.0) / 6.0;
+  world.gravity = g * Vec2{std::sin(slope), -std::cos(slope)};
+  const auto run = [&](double duration) {
+    for (const double end = world.state.time + duration; world.state.time < end;) world.step();
+  };
+  run(0.05);
+  const double v = world.velocity(0).x, t = world.state.time;
+  run(0.3);
+  const double a = (world.velocity(0).x - v) / (world.state.time - t);
+  const double exact = g * (std::sin(slope) - 0.3 * std::cos(slope));
+  std::printf("  a = %.5f m/s2, exact %.5f: off by %.2e\n", a, exact, a / exact - 1.0);
+  EXPECT_NEAR(a / exact, 1.0, 0.01);
+}
+
+TEST(ContactFriction, SlidesToRestOverManySides) {
+  World world = block_on_base(0.5, 37);
+  world.throw_body(0, {1.0, 0.0});
+  const double start = world.state.time, from = world.centre(0).x;
+  const double friction = world.state.dissipation.friction, viscous = world.state.dissipation.viscous;
+  const double energy = world.step().mechanical();
+  double bump = 0.0, lift = 0.0;
+  const double height = world.centre(0).y;
+  while (world.velocity(0).x > 0.0 && world.state.time < start + 1.0) {
+    world.step();
+    const double t = world.state.time - start;
+    if (t > 0.05 && t < 0.19) {
+      bump = std::max(bump, std::abs(world.velocity(0).y));
+      lift = std::max(lift, std::abs(world.centre(0).y - height));
+    }
+  }
+  const double time = world.state.time - start, distance = world.centre(0).x - from;
+  const double lost = energy - world.step().mechanical();
+  const double rubbed = world.state.dissipation.friction - friction;
+  const double damped = world.state.dissipation.viscous - viscous;
+  std::printf(
+      "  distance %.6f m (exact 0.10194), time %.5f s (0.20387), friction %.6f + viscous %.6f of %.6f J/m\n",
+      distance, time, rubbed, damped, lost);
+  std::printf("  over 37 sides per 1.2 m: normal velocity %.2e m/s at most, height changes by %.2e m\n", bump,
+              lift);
+  EXPECT_NEAR(distance / 0.101936, 1.0, 0.01);
+  EXPECT_NEAR(time / 0.203874, 1.0, 0.01);
+  EXPECT_NEAR((rubbed + damped) / lost, 1.0, 0.005);
+  EXPECT_NEAR(rubbed / lost, 1.0, 0.01);
+  EXPECT_LT(bump, 2e-3);
+}
+
+TEST(ContactFriction, DissipationNeverFalls) {
+  World world = block_on_base(0.5, 13);
+  world.throw_body(0, {0.5, -0.2});
+  double before = world.state.dissipation.friction, least = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    world.step();
+    least = std::min(least, world.state.dissipation.friction - before);
+    before = world.state.dissipation.friction;
+  }
+  EXPECT_EQ(least, 0.0);
+}
+
+}  // namespace
+}  // namespace crackle::test
