@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 
 #include "crackle/core/errors.hpp"
@@ -76,9 +77,11 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
     });
     if (add_loads) add_loads(tied, forces);
     residual.setZero();
+    double corner_forces = 0.0;  // in equilibrium already where the residual is nothing against these
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const Index u = unknown[at(mesh.triangles[k / 3][k % 3])];
       if (u < 0) continue;
+      corner_forces += dot(forces[k], forces[k]);
       residual[2 * u] += forces[k].x;
       residual[2 * u + 1] += forces[k].y;
     }
@@ -86,7 +89,9 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
     if (pass == 0) first = norm_now;
     const bool stalled = pass > 0 && norm_now > 0.5 * before;
     before = norm_now;
-    if (norm_now <= 1e-13 * first || (stalled && norm_now <= 1e-10 * first)) break;
+    if (norm_now <= std::max(1e-13 * first, 1e-14 * std::sqrt(corner_forces)) ||
+        (stalled && norm_now <= 1e-10 * first))
+      break;
     if (stalled || !std::isfinite(norm_now)) {
       throw NumericalError(
           fmt::format("static equilibrium: the unbalanced force stays at {:.1e} of the load; is the rock "
