@@ -35,6 +35,18 @@ inline void add_element_forces(const Index* element_on_side, const EndForces* fo
   }
 }
 
+// v += Δt f/m, x += Δt v
+CRACKLE_KERNEL void move(Vec2* displacement, Vec2* velocity, const double* inverse_mass, const Vec2* force,
+                         double dt, Index count) {
+  for (Index n = 0; n < count; ++n) {
+    const double w = dt * inverse_mass[n];
+    velocity[n].x += w * force[n].x;
+    velocity[n].y += w * force[n].y;
+    displacement[n].x += dt * velocity[n].x;
+    displacement[n].y += dt * velocity[n].y;
+  }
+}
+
 // Wall of the wellbore and pre-cut cracks: where the fluid is at the start.
 std::vector<Index> wetted_edges(const Scene& scene) {
   std::vector<Index> edges;
@@ -90,10 +102,7 @@ Simulation::Simulation(Scene scene)
     }
   }
   if (scene_.contact.normal_penalty > 0.0) contact_.emplace(state_, scene_.contact);
-  for (Index n = 0; n < state_.node_count(); ++n) {
-    if (state_.node_size[at(n)] > 1) shared_nodes_.push_back(n);
-  }
-  if (!shared_nodes_.empty()) corner_force_.resize(state_.node_of_corner.size());
+  if (!scene_.law) corner_force_.resize(state_.node_of_corner.size());
   if (scene_.fluid) {
     fluid_.emplace(state_, *scene_.fluid, scene_.pump);
     fluid_->fill(state_, wetted_edges(scene_), scene_.initial_pressure);
@@ -191,34 +200,37 @@ double Simulation::wellbore_pressure() const {
 void Simulation::move_nodes(double dt) {
   const Mesh& mesh = *scene_.mesh;
   std::vector<double> power(at(block_count(mesh.triangle_count())));
+  // With one node a corner a triangle's nodes are its own: they move as soon as their forces are known,
+  // while they are in the cache. Nodes that corners share wait for all their corners.
+  const bool own_nodes = corner_force_.empty();
   for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index block) {
     Vec2 forces[3 * block_size];
     power[at(block)] = bulk_.corner_forces(state_, begin, end, forces);
     for (Index t = begin; t < end; ++t) {
-      Vec2* f = forces + 3 * (t - begin);
-      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), f);
-      for (Index i = 0; i < 3; ++i) {
-        const std::size_t n = at(state_.node_of_corner[at(3 * t + i)]);
-        if (state_.node_size[n] == 1) {
-          state_.velocity[n] += (dt * state_.inverse_mass[n]) * f[i];
-          state_.displacement[n] += dt * state_.velocity[n];
-        } else {
-          corner_force_[at(3 * t + i)] = f[i];
+      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
+                         forces + 3 * (t - begin));
+    }
+    if (own_nodes) {
+      move(state_.displacement.data() + 3 * begin, state_.velocity.data() + 3 * begin,
+           state_.inverse_mass.data() + 3 * begin, forces, dt, 3 * (end - begin));
+    } else {
+      std::copy(forces, forces + 3 * (end - begin), corner_force_.begin() + 3 * begin);
+    }
+  });
+  if (!own_nodes) {
+    for_each_block(state_.node_count(), [&](Index begin, Index end, Index) {
+      Vec2 forces[block_size];
+      for (Index n = begin; n < end; ++n) {
+        Vec2 f;
+        for (Index j = 0; j < state_.node_size[at(n)]; ++j) {
+          f += corner_force_[at(state_.node_corners[at(state_.node_first[at(n)] + j)])];
         }
+        forces[n - begin] = f;
       }
-    }
-  });
-  for_each_block(static_cast<Index>(shared_nodes_.size()), [&](Index begin, Index end, Index) {
-    for (Index k = begin; k < end; ++k) {
-      const std::size_t n = at(shared_nodes_[at(k)]);
-      Vec2 f;
-      for (Index j = 0; j < state_.node_size[n]; ++j) {
-        f += corner_force_[at(state_.node_corners[at(state_.node_first[n] + j)])];
-      }
-      state_.velocity[n] += (dt * state_.inverse_mass[n]) * f;
-      state_.displacement[n] += dt * state_.velocity[n];
-    }
-  });
+      move(state_.displacement.data() + begin, state_.velocity.data() + begin,
+           state_.inverse_mass.data() + begin, forces, dt, end - begin);
+    });
+  }
   for (const double p : power) state_.dissipation.viscous += dt * p;
 }
 

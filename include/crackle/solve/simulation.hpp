@@ -102,8 +102,7 @@ class Simulation {
   StableStep stable_;
   Stopwatch stopwatch_;
   std::vector<SeismicEvent> new_events_;
-  std::vector<Vec2> corner_force_;  // of corners that share their node with others
-  std::vector<Index> shared_nodes_;
+  std::vector<Vec2> corner_force_;  // where corners share nodes
   std::vector<Vec2> velocity_before_;
   Energies reference_;  // stored energies at the start
   double scale_ = 0.0;  // largest energy so far
