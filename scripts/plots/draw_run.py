@@ -10,21 +10,28 @@ from run_data import Run, RunError
 
 import events_figure
 import fractures_figure
+import look
 import pressure_figure
+
+FIGURES = {"pressure.png": pressure_figure, "fractures.png": fractures_figure, "events.png": events_figure}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", metavar="RUN_DIR", help="folder that `crackle run` wrote")
     parser.add_argument("-o", "--output", metavar="DIR", help="where the figures go (default: RUN_DIR)")
+    parser.add_argument("--small", action="store_true", help="small files, for a repository")
     arguments = parser.parse_args()
+    if arguments.small:
+        look.make_small()
     try:
         run = Run(arguments.run)
         folder = pathlib.Path(arguments.output or arguments.run)
         folder.mkdir(parents=True, exist_ok=True)
-        pressure_figure.draw(run, folder / "pressure.png")
-        fractures_figure.draw(run, folder / "fractures.png")
-        events_figure.draw(run, folder / "events.png")
+        for name, figure in FIGURES.items():
+            figure.draw(run, folder / name)
+            if arguments.small:
+                look.shrink(folder / name)
     except (RunError, OSError) as error:
         sys.exit(f"draw_run: {error}")
 
