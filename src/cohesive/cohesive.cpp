@@ -307,11 +307,12 @@ double Cohesive::stored_energy(const State& state) const {
       }
       const EndSeparation w = separation(state, i);
       const auto energy = [&](double opening, double slip) {
-        return elastic_energy(m.penalty / length, curvature, m.tensile_strength, m.cohesion, m.tan_friction, opening,
-                              slip);
+        return elastic_energy(m.penalty / length, curvature, m.tensile_strength, m.cohesion, m.tan_friction,
+                              opening, slip);
       };
-      sum += length / 6.0 * (energy(w.opening0, w.slip0) + energy(w.opening1, w.slip1) +
-                             4.0 * energy(0.5 * (w.opening0 + w.opening1), 0.5 * (w.slip0 + w.slip1)));
+      sum += length / 6.0 *
+             (energy(w.opening0, w.slip0) + energy(w.opening1, w.slip1) +
+              4.0 * energy(0.5 * (w.opening0 + w.opening1), 0.5 * (w.slip0 + w.slip1)));
     }
     return sum;
   });

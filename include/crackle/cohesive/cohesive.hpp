@@ -61,7 +61,7 @@ class Cohesive {
   Index active_count(const State& state) const { return static_cast<Index>(state.cohesive.histories.size()); }
 
  private:
-  void evaluate_active(State& state, CohesiveHistory& history, Dissipation& dissipation) const;
+  void evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const;
 
   std::shared_ptr<const CohesiveLaw> law_;
   CohesiveMaterial material_;

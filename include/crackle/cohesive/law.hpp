@@ -128,7 +128,8 @@ inline double elastic_energy(double stiffness, double curvature, double tensile_
   const double strength = cohesion - (normal < 0.0 ? normal : 0.0) * tan_friction;
   const double s = stiffness * slip;
   const double push = s > 0.0 ? s : -s;
-  return (0.5 * (t * t + s * s) - curvature * (pull * pull * pull / tensile_strength + push * push * push / strength) / 12.0) /
+  return (0.5 * (t * t + s * s) -
+          curvature * (pull * pull * pull / tensile_strength + push * push * push / strength) / 12.0) /
          stiffness;
 }
 

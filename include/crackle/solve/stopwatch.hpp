@@ -15,9 +15,9 @@ class Stopwatch {
                                                              "fluid",    "events",  "ledger"};
 
   /// Begins timing; later laps go to the part named.
-  void start() { last_ = clock::now(); }
+  void start() { last_ = Clock::now(); }
   void lap(Part part) {
-    const auto now = clock::now();
+    const auto now = Clock::now();
     seconds_[part] += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
@@ -29,8 +29,8 @@ class Stopwatch {
   }
 
  private:
-  using clock = std::chrono::steady_clock;
-  clock::time_point last_ = clock::now();
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
   std::array<double, parts> seconds_{};
 };
 
