@@ -57,7 +57,7 @@ GeneralContact& GeneralContact::operator=(GeneralContact&&) noexcept = default;
 void GeneralContact::update(State& state) {
   released_.clear();
   forces_.clear();
-  std::size_t broken = 0;
+  Index broken = 0;
   for (const CohesiveHistory& h : state.cohesive.histories) {
     const CohesiveStatus status = state.cohesive.status[at(h.element)];
     if (status < CohesiveStatus::broken) continue;
@@ -87,16 +87,17 @@ void GeneralContact::update(State& state) {
   }
   if (!search_->needed()) return;
   if (!released_.empty()) std::sort(state.contact.points.begin(), state.contact.points.end(), comes_first);
-  search_->refresh(state, broken != search_->broken || !released_.empty());
-  search_->broken = broken;
+  const bool sides_changed = broken != state.contact.broken || !released_.empty();
+  search_->refresh(state, sides_changed);
+  state.contact.broken = broken;
   search_->sides.mark_taken_over(released_);
   double taken_over = 0.0;
-  evaluate(state, taken_over);
+  evaluate(state, sides_changed, taken_over);
   // Where nothing lies opposite any more, what the pair had stored is lost.
   state.dissipation.friction += std::max(0.0, handed_over - taken_over);
 }
 
-void GeneralContact::evaluate(State& state, double& taken_over) {
+void GeneralContact::evaluate(State& state, bool first_look, double& taken_over) {
   const Search& search = *search_;
   const std::vector<ContactPoint> before = std::move(state.contact.points);
   const Index count = search.sides.count();
@@ -114,7 +115,7 @@ void GeneralContact::evaluate(State& state, double& taken_over) {
       const std::span<const ContactPoint> known{before.data() + first[at(s)],
                                                 first[at(s) + 1] - first[at(s)]};
       if (targets.empty() && known.empty()) continue;
-      touch(state, material_, search.sides, search.placed, s, targets, known, touches[at(block)]);
+      touch(state, material_, search.sides, search.placed, s, targets, known, first_look, touches[at(block)]);
     }
   });
   state.contact.points.clear();

@@ -110,7 +110,7 @@ ContactPoint take_over(const ContactMaterial& m, double length, const BornTracti
 
 void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
            const std::vector<PlacedSide>& placed, Index s, std::span<const Index> targets,
-           std::span<const ContactPoint> known, Touches& touches) {
+           std::span<const ContactPoint> known, bool first_look, Touches& touches) {
   const FreeSide& side = sides[s];
   const double length = side.length;
   const double k_n = m.normal_penalty / length, k_t = m.tangential_penalty / length;
@@ -163,7 +163,7 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
         p.side = side.corner;
         p.place = place;
         p.depth = f.depth.value;
-        p.offset = std::max(0.0, f.depth.value - motion);
+        p.offset = first_look ? f.depth.value : std::max(0.0, f.depth.value - motion);
       } else {
         p = *f.old;
         lost -= energy(m, length, p);
@@ -180,7 +180,7 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
       const Vec2 along{-f.depth.normal.y, f.depth.normal.x};
       const double before = friction_traction(m, length, p);
       const double plastic = p.plastic_slip;
-      if (!taken_over) p.slip += dt * dot(point.velocity - target.velocity, along);
+      if (f.old != nullptr && !taken_over) p.slip += dt * dot(point.velocity - target.velocity, along);
       const double friction =
           k_t > 0.0 ? coulomb_traction(k_t, p.slip, m.tan_friction * k_n * overlap, p.plastic_slip) : 0.0;
       const double w = weight(place, length);

@@ -34,8 +34,9 @@ ContactPoint take_over(const ContactMaterial& material, double length, const Bor
                        Index place, Index target);
 
 /// Finds what the three points of free side `s` touch. @param known its points in contact so far
+/// @param first_look sides are new since the last step: what lies behind one now may have done so before
 void touch(const State& state, const ContactMaterial& material, const FreeSides& sides,
            const std::vector<PlacedSide>& placed, Index s, std::span<const Index> targets,
-           std::span<const ContactPoint> known, Touches& touches);
+           std::span<const ContactPoint> known, bool first_look, Touches& touches);
 
 }  // namespace crackle

@@ -85,7 +85,7 @@ class GeneralContact {
  private:
   struct Search;
 
-  void evaluate(State& state, double& taken_over);
+  void evaluate(State& state, bool first_look, double& taken_over);
 
   ContactMaterial material_;
   std::unique_ptr<Search> search_;  // free sides and which of them may meet; follows from the state

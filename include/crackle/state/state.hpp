@@ -108,6 +108,7 @@ struct ContactPoint {
 
 struct ContactState {
   std::vector<ContactPoint> points;  ///< in order of side, place, target
+  Index broken = -1;  ///< elements broken or released when free sides were last looked up; -1: never
 };
 
 /// Every number that changes during a run, as plain arrays: what a checkpoint saves.

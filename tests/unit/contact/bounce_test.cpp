@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "box_bounce.hpp"
 #include "world.hpp"
 
 namespace crackle::test {
@@ -12,42 +13,6 @@ namespace {
 Mesh block(double width, double height, int nx, int ny) {
   return structured_rectangle({-0.5 * width, -0.5 * height}, {0.5 * width, 0.5 * height}, nx, ny,
                               MeshPattern::right);
-}
-
-// A triangle thrown about in a box of fixed walls. A bounce errs by the place of first touch in a
-// step, which is of order (ωΔt)² and random; hence a small step.
-void bounce_in_box(int bounces, double fraction_of_step) {
-  const double room = 0.16, thick = 0.3, gap = 0.001;
-  const double wide = room + 2 * thick, off = 0.5 * (room + thick);
-  World world(
-      {one_triangle({-0.05, -0.04}, {0.05, -0.03}, {0.01, 0.05}),
-       placed(block(wide, thick, 1, 1), 0.0, {0.0, -off}), placed(block(wide, thick, 1, 1), 0.0, {0.0, off}),
-       placed(block(thick, room - 2 * gap, 1, 1), 0.0, {-off, 0.0}),
-       placed(block(thick, room - 2 * gap, 1, 1), 0.0, {off, 0.0})},
-      {});
-  for (std::size_t wall = 1; wall < 5; ++wall) world.fix(wall);
-  world.dt *= fraction_of_step;
-  world.throw_body(0, {2.0, 1.3});
-  const double start = world.step().mechanical();
-  int done = 0;
-  bool touching = false;
-  double most = 0.0;
-  while (done < bounces) {
-    const double energy = world.step().mechanical();
-    const bool now = !world.state.contact.points.empty();
-    if (touching && !now) {
-      ++done;
-      most = std::max(most, std::abs(std::sqrt(energy / start) - 1.0));
-    }
-    touching = now;
-    ASSERT_LT(world.state.step, 10000LL * bounces) << done << " bounces only";
-    const Vec2 x = world.centre(0);
-    ASSERT_TRUE(std::abs(x.x) < 0.5 * room && std::abs(x.y) < 0.5 * room)
-        << "left the box after " << done << " bounces";
-  }
-  std::printf("  %d bounces, %lld steps: |e - 1| %.2e at most\n", bounces,
-              static_cast<long long>(world.state.step), most);
-  EXPECT_LT(most, 1e-3);
 }
 
 TEST(ContactBounce, TriangleKeepsItsEnergyOver1000Bounces) { bounce_in_box(1000, 0.1); }

@@ -59,36 +59,50 @@ TEST(ContactFriction, SlidesDownASteepSlope) {
   EXPECT_NEAR(a / exact, 1.0, 0.01);
 }
 
-TEST(ContactFriction, SlidesToRestOverManySides) {
-  World world = block_on_base(0.5, 37);
+struct Slide {
+  double distance, time, lost, rubbed, damped, bump;
+};
+
+Slide slide_to_rest(int cuts) {
+  World world = block_on_base(0.5, cuts);
+  world.dt *=
+      0.2;  // the viscous share, booked at the start of each step, is half as large again at the full one
   world.throw_body(0, {1.0, 0.0});
   const double start = world.state.time, from = world.centre(0).x;
   const double friction = world.state.dissipation.friction, viscous = world.state.dissipation.viscous;
   const double energy = world.step().mechanical();
-  double bump = 0.0, lift = 0.0;
-  const double height = world.centre(0).y;
+  Slide s{};
   while (world.velocity(0).x > 0.0 && world.state.time < start + 1.0) {
     world.step();
+    // Once the block has come to terms with the sudden start, and before it stops.
     const double t = world.state.time - start;
-    if (t > 0.05 && t < 0.19) {
-      bump = std::max(bump, std::abs(world.velocity(0).y));
-      lift = std::max(lift, std::abs(world.centre(0).y - height));
-    }
+    if (t > 0.1 && t < 0.19) s.bump = std::max(s.bump, std::abs(world.velocity(0).y));
   }
-  const double time = world.state.time - start, distance = world.centre(0).x - from;
-  const double lost = energy - world.step().mechanical();
-  const double rubbed = world.state.dissipation.friction - friction;
-  const double damped = world.state.dissipation.viscous - viscous;
-  std::printf(
-      "  distance %.6f m (exact 0.10194), time %.5f s (0.20387), friction %.6f + viscous %.6f of %.6f J/m\n",
-      distance, time, rubbed, damped, lost);
-  std::printf("  over 37 sides per 1.2 m: normal velocity %.2e m/s at most, height changes by %.2e m\n", bump,
-              lift);
-  EXPECT_NEAR(distance / 0.101936, 1.0, 0.01);
-  EXPECT_NEAR(time / 0.203874, 1.0, 0.01);
-  EXPECT_NEAR((rubbed + damped) / lost, 1.0, 0.005);
-  EXPECT_NEAR(rubbed / lost, 1.0, 0.01);
-  EXPECT_LT(bump, 2e-3);
+  s.time = world.state.time - start;
+  s.distance = world.centre(0).x - from;
+  s.lost = energy - world.step().mechanical();
+  s.rubbed = world.state.dissipation.friction - friction;
+  s.damped = world.state.dissipation.viscous - viscous;
+  return s;
+}
+
+TEST(ContactFriction, SlidesToRest) {
+  double uncut = 0.0;
+  for (const int cuts : {2, 5, 13, 37}) {
+    const Slide s = slide_to_rest(cuts);
+    std::printf(
+        "  base of %2d sides: distance %.6f m (exact 0.10194), time %.5f s (0.20387), friction %.5f + "
+        "viscous "
+        "%.5f of %.5f J/m, normal velocity at most %.1e m/s\n",
+        cuts, s.distance, s.time, s.rubbed, s.damped, s.lost, s.bump);
+    EXPECT_NEAR(s.distance / 0.101936, 1.0, 0.001);
+    EXPECT_NEAR(s.time / 0.203874, 1.0, 0.01);
+    EXPECT_NEAR((s.rubbed + s.damped) / s.lost, 1.0, 0.001);
+    EXPECT_NEAR(s.rubbed / s.lost, 1.0, 0.005);
+    // The elastic block rocks; that it passes from side to side must not add to it.
+    if (cuts == 2) uncut = s.bump;
+    EXPECT_LE(s.bump, uncut);
+  }
 }
 
 TEST(ContactFriction, DissipationNeverFalls) {
