@@ -15,8 +15,7 @@ import sys
 ROWS = {"breakdown_pressure": ("MPa", 2), "breakdown_time": ("ms", 3), "propagation_pressure": ("MPa", 2),
         "extent_x": ("mm", 0), "extent_y": ("mm", 0), "extent_ratio": ("-", 2), "broken_length": ("mm", 0),
         "events": ("-", 0), "magnitude_min": ("-", 2), "magnitude_max": ("-", 2), "magnitude_share": ("-", 3),
-        "energy_residual_max": ("-", 6), "triangles": ("-", 0), "steps": ("-", 0), "wall": ("s", 0),
-        "core_ns_per_triangle_step": ("ns", 0)}
+        "energy_residual_max": ("-", 6), "triangles": ("-", 0), "steps": ("-", 0)}
 USUAL_MAGNITUDES = (-6.0, -3.5)
 
 
@@ -27,7 +26,6 @@ def numbers_of(folder):
     numbers["breakdown_pressure"] = summary["breakdown_pressure_Pa"] / 1e6
     numbers["propagation_pressure"] = summary["propagation_pressure_Pa"] / 1e6
     numbers["breakdown_time"] = summary["breakdown_time_s"] * 1e3
-    numbers["wall"] = summary["wall_s"]
     for name in ("extent_x", "extent_y", "broken_length"):
         numbers[name] = summary[f"{name}_m"] * 1e3
     if numbers["extent_y"] > 0.0:
