@@ -82,4 +82,8 @@ def shrink(path):
     image = Image.open(path).convert("RGB")
     palette = Image.new("P", (1, 1))
     palette.putpalette((image.quantize(free).getpalette()[:3 * free] + ramps)[:768])
-    image.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
+    image = image.quantize(palette=palette, dither=Image.Dither.NONE)
+    # the search for the nearest colour is coarse: nearly white is white
+    colors = image.getpalette()
+    image.putpalette([255 if min(colors[i - i % 3:i - i % 3 + 3]) >= 248 else colors[i] for i in range(len(colors))])
+    image.save(path, optimize=True)
