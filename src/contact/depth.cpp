@@ -54,12 +54,13 @@ Corner corner_depth(const PlacedSide& a, const PlacedSide& b, double radius, Vec
 }  // namespace
 
 bool find_depth(const FreeSides& sides, const std::vector<PlacedSide>& placed, Index self, Index target,
-                Vec2 x, Depth& depth) {
+                Vec2 x, bool before_too, Depth& depth) {
   const FreeSide& side = sides[target];
   const PlacedSide& here = placed[at(target)];
+  bool inside = behind(here, x);
+  if (!inside && !before_too) return false;
   const Foot nearest = foot(here, x);
   if (nearest.distance2 > side.reach * side.reach) return false;
-  bool inside = behind(here, x);
   for (const bool end : {false, true}) {
     const bool at_vertex = nearest.fraction == (end ? 1.0 : 0.0);
     const Index other = end ? side.next : side.previous;

@@ -37,8 +37,9 @@ struct Depth {
 
 /// Depth of point `x` [m] behind side `target`, if that is in reach and the nearest side of its surface.
 /// @param self side that carries the point
+/// @param before_too whether a point before the side is of interest; quicker if not
 /// @return false: no contact of this point with this side
 bool find_depth(const FreeSides& sides, const std::vector<PlacedSide>& placed, Index self, Index target,
-                Vec2 x, Depth& depth);
+                Vec2 x, bool before_too, Depth& depth);
 
 }  // namespace crackle

@@ -131,7 +131,9 @@ void GeneralContact::apply(State& state, double dt) const {
   for (const SideForce& f : forces_) {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t n = at(f.node[i]);
-      state.velocity[n] += (dt * state.inverse_mass[n] * f.share[i]) * f.force;
+      const Vec2 kick = (dt * state.inverse_mass[n] * f.share[i]) * f.force;
+      state.velocity[n] += kick;
+      state.displacement[n] += dt * kick;
     }
   }
 }

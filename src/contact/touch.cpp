@@ -117,6 +117,8 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
   const double dt = state.time_step;
   for (Index place = 0; place < 3; ++place) {
     const Point point = make_point(state, side, placed[at(s)], place);
+    const bool touched =
+        std::any_of(known.begin(), known.end(), [&](const ContactPoint& p) { return p.place == place; });
     std::array<Found, 8> found;
     std::size_t count = 0;
     for (const Index target : targets) {
@@ -125,7 +127,7 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
       if (place < 2 && (other.node[0] == side.node[at(place)] || other.node[1] == side.node[at(place)]))
         continue;
       Depth depth;
-      if (count == found.size() || !find_depth(sides, placed, s, target, point.x, depth)) continue;
+      if (count == found.size() || !find_depth(sides, placed, s, target, point.x, touched, depth)) continue;
       found[count++] = {target, depth, nullptr};
     }
     // Which of them it touched before: the same side, or else one beside it.

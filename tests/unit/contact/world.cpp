@@ -63,15 +63,16 @@ World::World(const std::vector<Mesh>& bodies, const WorldMaterial& m)
   dt = 0.8 * 2.0 / std::sqrt(4.0 / (rock * rock) + contact_.largest_frequency_squared(state));
 }
 
-WorldEnergy World::step() {
+void World::advance(WorldEnergy* energy) {
   contact_.update(state);
-  WorldEnergy e;
-  e.strain = bulk_.strain_energy(state);
-  e.contact = contact_.stored_energy(state);
-  for (Index n = 0; n < state.node_count(); ++n)
-    e.height -= mass_[at(n)] * dot(gravity, state.displacement[at(n)]);
-  const std::vector<Vec2> before = state.velocity;
-  contact_.apply(state, dt);
+  if (energy != nullptr) {
+    energy->strain = bulk_.strain_energy(state);
+    energy->contact = contact_.stored_energy(state);
+    for (Index n = 0; n < state.node_count(); ++n) {
+      energy->height -= mass_[at(n)] * dot(gravity, state.displacement[at(n)]);
+    }
+  }
+  before_ = state.velocity;
   state.dissipation.viscous +=
       dt * bulk_.corner_forces(state, 0, state.mesh->triangle_count(), corner_force_.data());
   for (std::size_t n = 0; n < mass_.size(); ++n) {
@@ -79,14 +80,16 @@ WorldEnergy World::step() {
     for (Index j = 0; j < state.node_size[n]; ++j)
       f += corner_force_[at(state.node_corners[at(state.node_first[n] + j)])];
     if (state.inverse_mass[n] == 0.0) continue;
-    state.velocity[n] += dt * (state.inverse_mass[n] * f + gravity - mass_damping * before[n]);
+    state.velocity[n] += dt * (state.inverse_mass[n] * f + gravity - mass_damping * before_[n]);
     state.displacement[n] += dt * state.velocity[n];
-    e.kinetic += 0.5 * mass_[n] * dot(before[n], state.velocity[n]);
+  }
+  contact_.apply(state, dt);
+  for (std::size_t n = 0; energy != nullptr && n < mass_.size(); ++n) {
+    if (state.inverse_mass[n] > 0.0) energy->kinetic += 0.5 * mass_[n] * dot(before_[n], state.velocity[n]);
   }
   state.time += dt;
   state.time_step = dt;
   ++state.step;
-  return e;
 }
 
 void World::fix(std::size_t body) {

@@ -40,7 +40,13 @@ class World {
   double mass_damping = 0.0;  ///< [1/s]
   double dt = 0.0;            ///< [s], 0.8 of the stable step
 
-  WorldEnergy step();
+  WorldEnergy step() {
+    WorldEnergy e;
+    advance(&e);
+    return e;
+  }
+  /// The same, without the energies.
+  void advance() { advance(nullptr); }
   Index contacts() const { return contact_.count(state); }
   GeneralContact& contact() { return contact_; }
 
@@ -59,11 +65,13 @@ class World {
   void settle(double duration, double damping);
 
  private:
+  void advance(WorldEnergy* energy);
+
   std::vector<Index> first_;  // node of a body
   std::vector<double> mass_;  // of a node, fixed or not
   Bulk bulk_;
   GeneralContact contact_;
-  std::vector<Vec2> corner_force_;
+  std::vector<Vec2> corner_force_, before_;
 };
 
 }  // namespace crackle::test
