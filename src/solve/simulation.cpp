@@ -256,8 +256,8 @@ void Simulation::advance(double dt, Energies* account) {
     velocity_before_ = state_.velocity;
     stopwatch_.lap(Stopwatch::ledger);
   }
-  if (contact_) contact_->apply(state_, dt);
   move_nodes(dt);
+  if (contact_) contact_->apply(state_, dt);
   if (boundary_) boundary_->apply(state_, dt);
   stopwatch_.lap(Stopwatch::rock);
   if (fluid_) {

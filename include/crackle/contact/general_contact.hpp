@@ -66,7 +66,8 @@ class GeneralContact {
   /// books what is dissipated. Comes after the cohesive elements' tractions: takes over theirs.
   void update(State& state);
 
-  /// Adds the forces of the last update() to the velocities. @param dt [s]
+  /// After the rock has moved without it: moves the nodes on by the forces of the last update() (not
+  /// before, or viscosity would see half a step's velocity). @param dt [s]
   void apply(State& state, double dt) const;
 
   /// Recoverable energy at the last update() [J/m].
