@@ -36,7 +36,9 @@ double CohesiveLaw::softening_opening(const CohesiveMaterial& m, double length) 
   if (m.calibration == Calibration::y_geo)
     return y_geo_factor() * m.fracture_energy_mode1 / m.tensile_strength;
   const double peak = (1.0 + curvature()) * m.tensile_strength / stiffness_of(m, length);
-  return (m.fracture_energy_mode1 - branch_area(curvature()) * m.tensile_strength * peak) /
+  // Beyond longest_edge() the elastic branch takes more than G: what is left falls off at once, nearly.
+  const double rise = branch_area(curvature()) * m.tensile_strength * peak;
+  return std::max(m.fracture_energy_mode1 - rise, 0.01 * m.fracture_energy_mode1) /
          (softening_integral() * m.tensile_strength);
 }
 

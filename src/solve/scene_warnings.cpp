@@ -45,6 +45,17 @@ void cohesive_zones(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
   look("sliding (mode II)", m.fracture_energy_mode2, m.cohesion, "do not rely on how much breaks in shear");
 }
 
+// Far from the wellbore edges may be too long for the exact calibration: they are tougher than asked.
+void coarse_edges(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  const double longest = scene.law->longest_edge(scene.cohesive);
+  if (mesh.longest_edge <= longest) return;
+  lines.push_back(
+      fmt::format("warning: edges longer than {} (up to {}, far from the wellbore) dissipate more than the "
+                  "fracture energy, by their "
+                  "elastic branch alone; a fracture that comes there meets tougher rock",
+                  length(longest), length(mesh.longest_edge)));
+}
+
 void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
   const double modulus = plane_strain_modulus(scene.stiffness);
   const ModulusRatio ratio = artificial_modulus_ratio(modulus, scene.stiffness.c66, scene.cohesive.penalty,
@@ -187,15 +198,15 @@ std::string scene_error(const Scene& scene) {
   if (!scene.law) return {};
   const MeshMeasure mesh = measure_mesh(*scene.mesh);
   const double longest = scene.law->longest_edge(scene.cohesive);
-  if (mesh.longest_edge <= longest) return {};
+  if (mesh.edge <= longest) return {};
   return fmt::format(
-      "cohesive.calibration = \"exact\" is not possible on edges longer than {} with cohesive.penalty = {}, "
-      "and the edge "
-      "at ({:.3g}, {:.3g}) m is {} long (its elastic branch alone would take more than the fracture energy): "
+      "cohesive.calibration = \"exact\" is not possible on edges longer than {} with cohesive.penalty = {} "
+      "(their "
+      "elastic branch alone takes more than the fracture energy), and those near the wellbore are {} long: "
       "take a "
       "penalty of {}, smaller edges, or calibration = \"y_geo\"",
-      length(longest), gigapascal(scene.cohesive.penalty), mesh.longest_place.x, mesh.longest_place.y,
-      length(mesh.longest_edge), gigapascal(1.01 * scene.cohesive.penalty * mesh.longest_edge / longest));
+      length(longest), gigapascal(scene.cohesive.penalty), length(mesh.edge),
+      gigapascal(1.01 * scene.cohesive.penalty * mesh.edge / longest));
 }
 
 std::vector<std::string> scene_warnings(const Scene& scene, double end_time, const StableStep& stable) {
@@ -204,6 +215,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, double end_time, con
   if (scene.law) {
     cohesive_zones(scene, mesh, lines);
     penalty_compliance(scene, mesh, lines);
+    coarse_edges(scene, mesh, lines);
     pressure_loss(scene, end_time, lines);
     wall_before_pumping(scene, mesh, lines);
   }

@@ -147,10 +147,13 @@ TEST(SceneWarnings, ExactCalibrationOnLongEdgesIsAnError) {
   EXPECT_EQ(scene_error(s), "");
   s.cohesive.calibration = Calibration::exact;
   EXPECT_EQ(scene_error(s), "");
-  s.cohesive.penalty = 20e9;
+  s.cohesive.penalty = 20e9;  // too little for the long edges far away only
+  EXPECT_EQ(scene_error(s), "");
+  EXPECT_THAT(warnings(s), Contains(HasSubstr("tougher rock")));
+  s.cohesive.penalty = 1e9;
   EXPECT_THAT(scene_error(s), HasSubstr("take a penalty of"));
   // and with the penalty that the message asks for
-  s.cohesive.penalty *= 1.01 * measure_mesh(*s.mesh).longest_edge / s.law->longest_edge(s.cohesive);
+  s.cohesive.penalty *= 1.01 * measure_mesh(*s.mesh).edge / s.law->longest_edge(s.cohesive);
   EXPECT_EQ(scene_error(s), "");
 }
 
