@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "crackle/cohesive/law.hpp"
 #include "crackle/core/nearest.hpp"
 #include "crackle/core/units.hpp"
+#include "frames.hpp"
 
 namespace crackle {
 
@@ -21,7 +23,16 @@ CaseNames registered_names() {
 Case load_case(const std::string& file, std::vector<std::string> overrides,
                std::optional<std::uint64_t> seed) {
   if (seed) overrides.push_back(fmt::format("mesh.seed={}", *seed));
-  return read_case(file, overrides, registered_names());
+  Case scene = read_case(file, overrides, registered_names());
+  for (const std::string& name : scene.output.fields) {
+    if (std::find(field_names().begin(), field_names().end(), name) == field_names().end()) {
+      const std::vector<std::string_view> known(field_names().begin(), field_names().end());
+      throw CaseError(file, 0, 0,
+                      fmt::format("output.fields: there is no field \"{}\"; did you mean \"{}\"? (known: {})",
+                                  name, nearest(name, known), fmt::join(known, ", ")));
+    }
+  }
+  return scene;
 }
 
 double quantity(const std::string& option, const std::string& text, std::string_view unit) {
