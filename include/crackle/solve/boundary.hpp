@@ -2,7 +2,8 @@
 //
 // Absorbing outer boundary (Lysmer and Kuhlemeyer 1969): traction −ρ c_p v_n normal to it and
 // −ρ c_s v_s along it, half to each end of an edge, on top of the constant traction that the
-// boundary bore in the geostatic stage. The dashpots are taken implicitly: they cannot limit the step.
+// boundary bore in the geostatic stage. The dashpots act on the mean velocity of the step
+// (trapezoidal rule): they cannot limit the step.
 // Limits: exact for waves that come in straight, less good at slant; no stiffness, so the static
 // pressurisation drifts slowly outward.
 #pragma once
@@ -21,26 +22,24 @@ class AbsorbingBoundary {
   AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
                     std::span<const Vec2> loads);
 
-  /// After the rock has moved without it: moves the boundary nodes on by their constant load, and
-  /// damps them; books what is radiated.
-  void apply(State& state, double dt) const;
+  /// Before the rock moves: notes the velocities that the step begins with.
+  void begin(const State& state);
+  /// After the rock has moved without it: moves the boundary nodes on by their constant load and
+  /// dashpots; books what is radiated.
+  /// @return the part of it [J/m] that belongs to energies taken at the step's beginning
+  double apply(State& state, double dt) const;
 
   /// Adds the constant loads to forces per node [N/m].
   void add_loads(std::span<Vec2> node_forces) const;
 
  private:
-  struct Entry {
-    Index node;
-    Vec2 normal;
-    double normal_dashpot;  // [kg/(s m)]
-    double tangent_dashpot;
+  struct Node {
+    Index node = -1;
+    Vec2 load;             // [N/m]
+    Sym2 dashpot;          // of all its edges together [kg/(s m)]
+    Vec2 velocity_before;  // [m/s]
   };
-  struct Load {
-    Index node;
-    Vec2 force;
-  };
-  std::vector<Entry> entries_;
-  std::vector<Load> loads_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace crackle

@@ -31,9 +31,6 @@ TEST(Geostatic, StrongRockNeedsNoRelaxation) {
 }
 
 TEST(Geostatic, WallThatSlipsComesToRest) {
-  GTEST_SKIP()
-      << "relaxing at 0.8 of the stable step never rests: modes with a period of three steps are stopped "
-         "where they began; at 0.3 of it this case rests within 300 steps, imbalance 2e-7";
   Simulation simulation(weak_rock(3e6, 3.5e6));
   const double imbalance = simulation.imbalance();
   double fastest = 0.0;
@@ -46,13 +43,11 @@ TEST(Geostatic, WallThatSlipsComesToRest) {
   EXPECT_GT(simulation.geostatic_slips(), 0);
   EXPECT_LT(imbalance, 1e-3);
   EXPECT_LT(fastest, 1e-3);
-  EXPECT_EQ(simulation.state().time, 500 * simulation.state().time_step);
+  EXPECT_NEAR(simulation.state().time, 500 * dt, 1e-9 * dt) << "relaxing takes no time";
 }
 
 // Cracks in rock without stress: nothing moves, which is rest.
 TEST(Geostatic, CracksWithoutStressAreAtRest) {
-  GTEST_SKIP() << "with a kinetic energy of exactly zero the relaxation never sees a peak and gives up after "
-                  "200000 steps";
   Scene scene = weak_rock(3e6, 24e6);
   scene.stress = {};
   scene.cracks = {granite::edges_of_kind(*scene.mesh, EdgeKind::interior).front()};
