@@ -128,7 +128,7 @@ double scale(double value, double factor) {
 
 struct Units::Database {
   struct Free {
-    void operator()(ut_system* system) const { ut_free_system(system); }
+    void operator()(ut_system* s) const { ut_free_system(s); }
   };
   std::unique_ptr<ut_system, Free> system;
 };
