@@ -22,6 +22,7 @@
 #include "load.hpp"
 #include "progress.hpp"
 #include "scene.hpp"
+#include "status.hpp"
 
 namespace crackle {
 namespace {
@@ -120,16 +121,7 @@ HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tall
   return row;
 }
 
-}  // namespace
-
-int run_command(const RunOptions& options) {
-  const Case scene = load_case(options.case_file, options.overrides, options.seed);
-  require_memory(scene);
-  const std::string path =
-      options.output.empty()
-          ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()
-          : options.output;
-  RunFolder folder(path);
+int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folder, Status& status) {
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   omp_set_num_threads(threads);
   const auto say = [&](const std::string& line) {
@@ -245,6 +237,7 @@ int run_command(const RunOptions& options) {
       }
       tally.pressure(time, pressure, now_dt);
       progress.show(now());
+      status.show(now());
     }
   } catch (const NumericalError& error) {
     exit = error.what();
@@ -274,6 +267,30 @@ int run_command(const RunOptions& options) {
       summary.events, summary.broken_length, summary.energy_residual_max));
   say(fmt::format("{}: {}", exit, folder.path()));
   return code;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const Case scene = load_case(options.case_file, options.overrides, options.seed);
+  require_memory(scene);
+  const std::string path =
+      options.output.empty()
+          ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()
+          : options.output;
+  RunFolder folder(path);
+  Status status(folder, scene.run.end_time);
+  try {
+    const int code = run_in_folder(options, scene, folder, status);
+    status.finish(code == 0 ? "done" : "interrupted");
+    return code;
+  } catch (const std::exception& error) {
+    try {
+      status.finish("failed", error.what());
+    } catch (const CaseError&) {  // what went wrong first is what the user has to know
+    }
+    throw;
+  }
 }
 
 }  // namespace crackle

@@ -9,6 +9,7 @@
 #include "file.hpp"
 #include "history_csv.hpp"
 #include "pvd.hpp"
+#include "status_json.hpp"
 #include "summary_json.hpp"
 #include "utc_time.hpp"
 
@@ -106,6 +107,11 @@ void RunFolder::write_quakeml(const std::vector<SeismicEvent>& events, const Cas
 void RunFolder::write_summary(const RunSummary& summary) {
   start();
   write_whole_file(file("summary.json"), summary_json(summary));
+}
+
+void RunFolder::write_status(const RunStatus& status) {
+  if (events_ == nullptr) refuse_other_run(path_);
+  write_whole_file(file("status.json"), status_json(status));
 }
 
 void RunFolder::log(const std::string& line) { log_->append(wall_clock() + " " + line + "\n"); }

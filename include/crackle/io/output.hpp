@@ -74,6 +74,20 @@ struct RunSummary {
   std::string exit = "done";  ///< "done", "interrupted" or the reason of a numerical stop
 };
 
+/// What status.json says of a run while it goes on and after it.
+struct RunStatus {
+  /// "preparing" (mesh, geostatic stage), "running", "done", "interrupted" or "failed". A run that was
+  /// killed still says "preparing" or "running": see whether its process lives.
+  std::string state = "preparing";
+  std::string reason;     ///< why it failed; empty otherwise
+  double time = 0.0;      ///< simulated [s]
+  double end_time = 0.0;  ///< simulated, at the end [s]
+  std::int64_t step = 0;
+  std::int64_t events = 0;
+  double wall = 0.0;       ///< since the start [s]
+  double wall_left = 0.0;  ///< estimate [s]; NaN where there is none yet (written as null)
+};
+
 class AppendedFile;
 
 /// The folder of one run: every file that crackle writes goes through here. Files are written
@@ -105,6 +119,9 @@ class RunFolder {
   /// events.xml, QuakeML 1.2.
   void write_quakeml(const std::vector<SeismicEvent>& events, const Case& scene);
   void write_summary(const RunSummary& summary);
+  /// Renews status.json, with the wall-clock time, host and process. Does not yet make the folder hold a
+  /// run.
+  void write_status(const RunStatus& status);
   /// Adds a line with the wall-clock time (UTC) to run.log.
   void log(const std::string& line);
 

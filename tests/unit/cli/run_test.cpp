@@ -25,7 +25,7 @@ TEST_F(RunCommand, FromCaseToCatalog) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err + run.out, "") << "quiet";
   for (const char* name : {"resolved.toml", "history.csv", "events.csv", "events.xml", "fields.pvd",
-                           "summary.json", "run.log"}) {
+                           "summary.json", "status.json", "run.log"}) {
     EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
   }
 
@@ -42,6 +42,20 @@ TEST_F(RunCommand, FromCaseToCatalog) {
   expect_refusal(crackle({"catalog", out, "--to", "kml"}), 2, "csv, quakeml or zmap");
   expect_refusal(crackle({"catalog", out, "--to", "csv", "-o", "/proc/a.csv"}), 2, "/proc/a.csv");
   expect_refusal(crackle({"catalog", out, "-o", path("b.csv")}), 2, "--to");
+}
+
+TEST_F(RunCommand, StatusSaysHowItWent) {
+  const std::string file = write("good.toml", good_case);
+  ASSERT_EQ(crackle({"run", file, "-q", "-j", "1", "-o", path("a"), "--set", "run.end_time=10us"}).code, 0);
+  EXPECT_THAT(read_text(path("a/status.json")),
+              AllOf(HasSubstr("\"state\": \"done\""), HasSubstr("\"wall_left_s\": 0"),
+                    HasSubstr("\"end_time_s\": 1e-05"), HasSubstr("\"reason\": \"\"")));
+  // a step far too long is refused once the mesh is there
+  ASSERT_EQ(crackle({"run", file, "-q", "-j", "1", "-o", path("b"), "--set", "run.time_step=1e-5"}).code, 2);
+  EXPECT_THAT(read_text(path("b/status.json")),
+              AllOf(HasSubstr("\"state\": \"failed\""), HasSubstr("run.time_step = 1e-05 s is above")));
+  // nothing was run there, so the folder can be used again
+  EXPECT_EQ(crackle({"run", file, "-q", "-j", "1", "-o", path("b"), "--set", "run.end_time=10us"}).code, 0);
 }
 
 // What run resolved is a case that runs to the same.
@@ -63,6 +77,7 @@ TEST_F(RunCommand, InterruptedRunIsWhole) {
                               path("out/fields/fields_000000.vtu"));
   EXPECT_EQ(run.code, 75) << run.err;
   EXPECT_THAT(read_text(path("out/summary.json")), HasSubstr("\"interrupted\""));
+  EXPECT_THAT(read_text(path("out/status.json")), HasSubstr("\"interrupted\""));
   EXPECT_TRUE(std::filesystem::exists(path("out/fields/fields_000001.vtu"))) << "where it was stopped";
 }
 
