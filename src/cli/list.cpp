@@ -42,9 +42,8 @@ constexpr LawParameter law_parameters[] = {
     {"rock.fracture_energy_mode2", "G_II", "> 0"},   {"cohesive.penalty", "p_f", "> 0"},
     {"contact.tangential_penalty", "p_t", "> 0"},    {"contact.friction_angle", "phi_f", "0 to 90 deg"}};
 
-void print_law(const CohesiveLaw& law) {
+void print_formulas(const CohesiveLaw& law) {
   const double c = law.curvature();
-  fmt::print("{}: {}\n\n", law.name(), law.description());
   fmt::print(
       "  elastic    sigma = k o in compression; f_t (r (1 + c) - c r^2), r = o/o_p, in tension\n"
       "             k = p_f / L on an edge of length L, o_p = (1 + c) f_t / k, c = {:g}\n",
@@ -60,6 +59,15 @@ void print_law(const CohesiveLaw& law) {
       "  lengths    calibration \"y_geo\": o_t = {0:g} G_I/f_t, s_t = {0:g} G_II/f_s\n"
       "             calibration \"exact\": those with which the whole curve dissipates G\n",
       law.y_geo_factor());
+}
+
+void print_law(const CohesiveLaw& law) {
+  fmt::print("{}: {}\n\n", law.name(), law.description());
+  if (law.formulas().empty()) {
+    print_formulas(law);
+  } else {
+    fmt::print("{}", law.formulas());
+  }
   fmt::print("\n  {:<28} {:<7} {:<6} {:<12} {}\n", "parameter", "symbol", "unit", "range", "default");
   const std::vector<CaseKey> keys = case_keys();
   for (const LawParameter& p : law_parameters) {

@@ -12,10 +12,6 @@ namespace {
 
 double stiffness_of(const CohesiveMaterial& m, double length) { return m.penalty / length; }
 
-double shear_strength(const CohesiveMaterial& m, double normal) {
-  return m.cohesion - std::min(normal, 0.0) * m.tan_friction;
-}
-
 // Area under the elastic branch from 0 to its peak over (strength x peak displacement).
 double branch_area(double curvature) { return 0.5 * (1.0 + curvature) - curvature / 3.0; }
 
@@ -32,6 +28,11 @@ std::vector<std::shared_ptr<const CohesiveLaw>>& registry() {
 
 }  // namespace
 
+double CohesiveLaw::largest_stiffness(const CohesiveMaterial& m) const {
+  // The friction spring of a yielding edge lies beside what is left of its cohesion.
+  return m.penalty + (m.tan_residual > 0.0 ? m.tangential_penalty : 0.0);
+}
+
 double CohesiveLaw::softening_opening(const CohesiveMaterial& m, double length) const {
   if (m.calibration == Calibration::y_geo)
     return y_geo_factor() * m.fracture_energy_mode1 / m.tensile_strength;
@@ -46,7 +47,7 @@ double CohesiveLaw::softening_slip(const CohesiveMaterial& m, double length, dou
   const double strength = shear_strength(m, normal);
   if (m.calibration == Calibration::y_geo) return y_geo_factor() * m.fracture_energy_mode2 / strength;
   // Energy above residual friction, the elastic branch included.
-  const double residual = -std::min(normal, 0.0) * m.tan_residual;
+  const double residual = residual_strength(m, normal);
   const double drop = std::max(strength - residual, 0.1 * strength);
   const double peak = (1.0 + curvature()) * strength / stiffness_of(m, length);
   const double rise = (branch_area(curvature()) * strength - residual) * peak;
@@ -98,7 +99,7 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
   const bool first = p.damage == 0.0;
   const double compression = std::min(k * opening, 0.0);  // [Pa], ≤ 0
   const double strength = shear_strength(m, compression);
-  const double residual = -compression * m.tan_residual;
+  const double residual = residual_strength(m, compression);
   const double peak_opening = (1.0 + c) * m.tensile_strength / k;
   const double peak_slip = (1.0 + c) * strength / k;
   const double sliding = std::abs(slip);

@@ -110,7 +110,7 @@ std::vector<TableSpec> make_tables() {
       number("fracture_energy_mode2", slot<&C::rock, &C::Rock::fracture_energy_mode2>(), energy_per_area, breaking, Need::always, "fracture energy in sliding"),
     }},
     {"cohesive", {
-      choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear"}, "softening law of the cohesive elements"),
+      choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear", "benzeggagh_kenane"}, "softening law of the cohesive elements"),
       choice("calibration", slot<&C::cohesive, &C::Cohesive::calibration>(), {"y_geo", "exact"}, "of the softening length: 3G/f, or so that G is dissipated"),
       choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all"}, "which edges carry a cohesive element"),
       number("penalty", slot<&C::cohesive, &C::Cohesive::penalty>(), pressure, not_negative, Need::never, "stiffness times edge length before softening", "20 rock.young_modulus"),

@@ -28,6 +28,8 @@
 // Calibration: "y_geo" takes the softening lengths of Y-Geo, o_t = 3 G_I / f_t and s_t = 3 G_II / f_s
 // (so that evans_marathe dissipates 1.159 G and the elastic part on top); "exact" takes those with
 // which the whole curve dissipates G, in mode II above residual friction.
+// "benzeggagh_kenane" has a damage of its own (src/cohesive/benzeggagh_kenane.cpp).
+//
 // Limits: mixed mode dissipates by the ellipse of Eq. 6.3, not by a linear mix; the elastic branch
 // makes the rock softer (see artificial_modulus_ratio()).
 #pragma once
@@ -61,6 +63,8 @@ class CohesiveLaw {
   virtual std::string name() const = 0;
   /// One line: form and source.
   virtual std::string description() const = 0;
+  /// Formulas for `crackle describe`, in lines; empty: those above.
+  virtual std::string formulas() const { return {}; }
   /// c above: 1 parabolic, 0 straight elastic branch.
   virtual double curvature() const = 0;
   /// z(D): share of the strength left at damage D; z(0) = 1, z(1) = 0, falling.
@@ -70,10 +74,16 @@ class CohesiveLaw {
   /// c_y in the softening length c_y G / f of the "y_geo" calibration.
   virtual double y_geo_factor() const = 0;
 
+  /// Whether the work of any closed path is what is dissipated on it, also where the shear strength
+  /// follows the normal stress; false for the laws of Y, whose ledger has a residual there.
+  virtual bool conserves_energy() const { return false; }
+  /// Bound of the slope of the tractions over opening and slip, times edge length [Pa].
+  virtual double largest_stiffness(const CohesiveMaterial& material) const;
+
   /// Moves a point to a new opening and slip [m]: its damage, tractions and stored energy.
   /// @param length of the edge in the reference state [m]
-  void move(const CohesiveMaterial& material, double length, double opening, double slip,
-            CohesivePoint& point) const;
+  virtual void move(const CohesiveMaterial& material, double length, double opening, double slip,
+                    CohesivePoint& point) const;
 
   /// Opening [m] at which an intact edge bears the normal traction, and slip at which it bears the
   /// shear traction [Pa]. @param normal, shear within the strength
@@ -97,6 +107,15 @@ std::vector<std::shared_ptr<const CohesiveLaw>> registered_laws();
 struct RegisterLaw {
   explicit RegisterLaw(std::shared_ptr<const CohesiveLaw> law);
 };
+
+/// Mohr-Coulomb shear strength [Pa] at a normal traction (Eq. 6.1), and what friction bears of it when
+/// broken (Eq. 6.2).
+inline double shear_strength(const CohesiveMaterial& material, double normal) {
+  return material.cohesion - (normal < 0.0 ? normal : 0.0) * material.tan_friction;
+}
+inline double residual_strength(const CohesiveMaterial& material, double normal) {
+  return -(normal < 0.0 ? normal : 0.0) * material.tan_residual;
+}
 
 /// Tractions of an intact point [Pa]; `beyond` is set where it has left the elastic branch.
 struct ElasticTraction {

@@ -69,7 +69,7 @@ Pull pull(const std::string& law, Vec2 along, double reach, double turn) {
 }
 
 TEST(CohesiveElement, PulledApartInModeOneGivesItsFractureEnergy) {
-  for (const char* law : {"evans_marathe", "linear"}) {
+  for (const char* law : {"evans_marathe", "linear", "benzeggagh_kenane"}) {
     for (const double turn : {0.0, 1.1}) {
       const Pull p = pull(law, {0, 1}, 2e-5, turn);
       std::printf("%s, turned %.1f rad: work %.5f, booked %.5f of 5 J/m2, peak %.4f of 3 MPa\n", law, turn,
@@ -83,7 +83,7 @@ TEST(CohesiveElement, PulledApartInModeOneGivesItsFractureEnergy) {
 }
 
 TEST(CohesiveElement, SlidInModeTwoGivesItsFractureEnergy) {
-  for (const char* law : {"evans_marathe", "linear"}) {
+  for (const char* law : {"evans_marathe", "linear", "benzeggagh_kenane"}) {
     const Pull p = pull(law, {1, 0}, 6e-5, 0.0);
     std::printf("%s: work %.5f, booked %.5f of 80 J/m2, peak %.4f of 24 MPa\n", law, p.work, p.booked,
                 p.peak / 1e6);
@@ -104,7 +104,7 @@ TEST(CohesiveElement, BalanceHoldsASplitMeshUnderAnyStress) {
   auto mesh = std::make_shared<const Mesh>(
       jittered(structured_rectangle({0, 0}, {1, 1}, 12, 12, MeshPattern::cross), 0.2, 7));
   const Sym2 stress{-7.05e6, -4.9e6, 1.3e6};
-  for (const char* law : {"evans_marathe", "linear"}) {
+  for (const char* law : {"evans_marathe", "linear", "benzeggagh_kenane"}) {
     State state = make_split_state(mesh);
     set_mass(state, 2500);
     insert_all(state);

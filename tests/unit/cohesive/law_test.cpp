@@ -45,7 +45,7 @@ class EveryLaw : public testing::TestWithParam<std::string> {
  protected:
   std::shared_ptr<const CohesiveLaw> law = find_law(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Law, EveryLaw, testing::Values("evans_marathe", "linear"));
+INSTANTIATE_TEST_SUITE_P(Law, EveryLaw, testing::Values("evans_marathe", "linear", "benzeggagh_kenane"));
 
 TEST_P(EveryLaw, IsRegistered) { ASSERT_NE(law, nullptr); }
 

@@ -50,7 +50,8 @@ Vibration vibrate(const char* law, double damping_ratio, int steps) {
 }
 
 TEST(Vibration, UndampedKeepsItsEnergy) {
-  for (const char* law : {static_cast<const char*>(nullptr), "linear", "evans_marathe"}) {
+  for (const char* law :
+       {static_cast<const char*>(nullptr), "linear", "evans_marathe", "benzeggagh_kenane"}) {
     const Vibration v = vibrate(law, 0.0, 20000);
     std::printf("undamped, %s: energy within %.1e over 20000 steps, drift %.1e\n",
                 law == nullptr ? "tied" : law, v.worst, v.drift);

@@ -11,7 +11,7 @@ namespace {
 using granite::at;
 
 TEST(Bar, BreaksAtOneEdgeAndTheLedgerCloses) {
-  for (const char* law : {"evans_marathe", "linear"}) {
+  for (const char* law : {"evans_marathe", "linear", "benzeggagh_kenane"}) {
     const double h = 3e-3;
     Scene scene = granite::scene(granite::free_body(
         structured_rectangle({-10 * h, -2.5 * h}, {10 * h, 2.5 * h}, 20, 5, MeshPattern::cross)));
