@@ -129,8 +129,9 @@ TEST(CaseRead, NeedsNeitherWellboreNorFluidWithoutAPump) {
 TEST(CaseRead, TakesNamesThatTheCallerAdds) {
   const CaseNames names{{{"cohesive.law", {"my_law"}}}};
   EXPECT_EQ(read_case(good_path, {"cohesive.law=my_law"}, names).cohesive.law, "my_law");
-  EXPECT_THAT([&] { read_case(good_path, {"cohesive.law=my_lew"}, names); },
-              ThrowsMessage<CaseError>(HasSubstr("\"benzeggagh_kenane\" or \"my_law\"; the nearest is \"my_law\"")));
+  EXPECT_THAT(
+      [&] { read_case(good_path, {"cohesive.law=my_lew"}, names); },
+      ThrowsMessage<CaseError>(HasSubstr("\"benzeggagh_kenane\" or \"my_law\"; the nearest is \"my_law\"")));
 }
 
 TEST_F(CaseFiles, MeshFileStandsForDomainAndSizes) {
