@@ -247,7 +247,8 @@ void Simulation::advance(double dt, Energies* account) {
     stopwatch_.lap(Stopwatch::contact);
   }
   if (cohesive_ && !cohesive_->newly_broken().empty()) {
-    new_events_ = listen(state_, cohesive_->newly_broken(), scene_.thickness);
+    new_events_ = listen(state_, cohesive_->newly_broken(),
+                         {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness});
     stopwatch_.lap(Stopwatch::events);
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
     stopwatch_.lap(Stopwatch::fluid);

@@ -22,8 +22,14 @@ double magnitude_of_energy(double energy);
 /// tensile, above three quarters shear, mixed between.
 FailureMode failure_mode(double sliding_share);
 
+/// What turns jumps and energies of the plane into moments and magnitudes.
+struct SeismicMedium {
+  Lame rock;               ///< [Pa]
+  double thickness = 1.0;  ///< out of plane [m]
+};
+
 /// Events of the elements that broke in this step.
-/// @param thickness out of plane [m]
-std::vector<SeismicEvent> listen(const State& state, std::span<const Index> broken, double thickness);
+std::vector<SeismicEvent> listen(const State& state, std::span<const Index> broken,
+                                 const SeismicMedium& medium);
 
 }  // namespace crackle

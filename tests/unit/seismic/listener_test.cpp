@@ -48,13 +48,15 @@ TEST(Seismic, ListensToTheElementsThatBroke) {
   h.element = element;
   h.fracture_energy = 0.02;
   h.sliding_work = 0.018;
+  h.friction_energy = 0.003;
+  h.yield_time = 2e-4;
   h.kinetic_rise = 15e-3;
   h.point[2].opening = 4e-6;
   h.point[2].slip = -7e-6;
   state.cohesive.histories = {CohesiveHistory{}, h};
   state.cohesive.history_of[1] = 1;
   const Index broken[] = {element};
-  const auto events = listen(state, broken, 2.0);
+  const auto events = listen(state, broken, {{16e9, 14e9}, 2.0});
   ASSERT_EQ(events.size(), 1u);
   const SeismicEvent& e = events.front();
   const Edge& edge = state.mesh->edges[granite::at(state.cohesive.edge[1])];
@@ -67,10 +69,16 @@ TEST(Seismic, ListensToTheElementsThatBroke) {
   EXPECT_EQ(e.energy, 15e-3);
   EXPECT_NEAR(e.magnitude, -4.215, 5e-4) << "of 15 mJ/m over 2 m";
   EXPECT_EQ(e.fracture_energy, 0.02);
+  EXPECT_EQ(e.friction_energy, 0.003);
+  EXPECT_NEAR(e.duration, 1e-4, 1e-18);
   EXPECT_EQ(e.length, norm(b - a));
   EXPECT_EQ(e.opening, 4e-6);
   EXPECT_EQ(e.slip, -7e-6);
-  EXPECT_TRUE(listen(state, {}, 1.0).empty());
+  const MomentTensor m = moment_of_jump({16e9, 14e9}, state.cohesive.direction[1], e.length, 4e-6, -7e-6);
+  EXPECT_NEAR(e.moment.xx, m.xx, 1e-9 * std::abs(m.xx));
+  EXPECT_NEAR(e.moment.xy, m.xy, 1e-9 * std::abs(m.xx));
+  EXPECT_NEAR(e.moment_magnitude, moment_magnitude(2.0 * scalar_moment(m)), 1e-9);
+  EXPECT_TRUE(listen(state, {}, {}).empty());
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "crackle/core/vec2.hpp"
+
+namespace crackle {
+
+/// An edge of a joint that takes part in a slip event under way.
+struct SlipEdge {
+  Index edge = -1;                              ///< of the mesh
+  Index event = -1;                             ///< that it takes part in: the event's first edge names it
+  std::array<Index, 2> vertex{-1, -1};          ///< its ends in the mesh
+  Vec2 place, direction;                        ///< middle and direction when it started, current [m]
+  double length = 0.0;                          ///< [m]
+  double start = 0.0, last = 0.0;               ///< first and last time at which it slid [s]
+  double slip_start = 0.0, slip = 0.0;          ///< before it started, and now [m]
+  double opening_start = 0.0, opening = 0.0;    ///< [m]
+  double traction_start = 0.0, traction = 0.0;  ///< shear, along the direction [Pa]
+  double friction_energy = 0.0;                 ///< since it started [J/m]
+  double kinetic_start = 0.0;                   ///< of its nodes when it started [J/m]
+};
+
+/// Slip events under way.
+struct SlipMemory {
+  struct Event {
+    Index name = -1;            ///< its first edge
+    double kinetic_rise = 0.0;  ///< largest rise of its nodes' kinetic energy [J/m]
+  };
+  std::vector<SlipEdge> edges;  ///< ascending by edge
+  std::vector<Event> events;    ///< ascending by name
+};
+
+}  // namespace crackle
