@@ -4,12 +4,20 @@
 #include <cmath>
 
 #include "crackle/core/errors.hpp"
+#include "crackle/solve/estimates.hpp"
 
 namespace crackle {
 namespace {
 
 // Below this a triangle would set the time step of the whole run, or nearly have no area.
 constexpr double smallest_angle_deg = 5.0;
+
+PlaneStiffness rock_stiffness(const Case::Rock& rock) {
+  if (!rock.young_modulus_normal) return isotropic_plane_strain(rock.young_modulus, rock.poisson_ratio);
+  return transversely_isotropic_plane_strain({rock.young_modulus, *rock.young_modulus_normal,
+                                              rock.poisson_ratio, *rock.poisson_ratio_normal,
+                                              *rock.shear_modulus_normal, rock.bedding_angle});
+}
 
 }  // namespace
 
@@ -43,7 +51,7 @@ Mesh make_mesh(const Case& scene) {
 Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   Scene s;
   s.mesh = std::move(excavated);
-  s.stiffness = isotropic_plane_strain(scene.rock.young_modulus, scene.rock.poisson_ratio);
+  s.stiffness = rock_stiffness(scene.rock);
   s.density = scene.rock.density;
   s.stress = scene.stress;
   s.damping = {scene.damping.viscosity.value_or(0.0), scene.damping.ratio.value_or(0.0)};
@@ -57,6 +65,10 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.cohesive.penalty = scene.cohesive.penalty;
   s.cohesive.tangential_penalty = scene.contact.tangential_penalty;
   s.cohesive.calibration = scene.cohesive.calibration == "y_geo" ? Calibration::y_geo : Calibration::exact;
+  if (scene.cohesive.compliance == "compensated" && s.mesh) {
+    const double shape = measure_mesh(*s.mesh).sum_length2_over_area;
+    s.triangle_stiffness = compensated(s.stiffness, artificial_compliance(s.cohesive.penalty, shape));
+  }
   s.contact = {scene.contact.normal_penalty, scene.contact.tangential_penalty, s.cohesive.tan_residual};
   s.absorbing_boundary = scene.boundary.outer == "absorbing";
   if (scene.wellbore.diameter > 0.0 || !scene.fluid.pump.empty()) {

@@ -105,6 +105,38 @@ void finish_pump(Case& scene, const GivenKeys& given) {
   std::ranges::stable_sort(pump, {}, &Case::PumpStage::from);
 }
 
+void finish_bedding(Case::Rock& rock, const GivenKeys& given) {
+  if (!rock.young_modulus_normal && !rock.poisson_ratio_normal && !rock.shear_modulus_normal) {
+    if (rock.bedding_angle != 0.0) {
+      fail(given.place("rock.bedding_angle"),
+           "rock.bedding_angle turns nothing: the rock is the same in all directions until it has a "
+           "rock.young_modulus_normal or another modulus across the bedding");
+    }
+    return;
+  }
+  const double along = rock.young_modulus;
+  if (!rock.young_modulus_normal) rock.young_modulus_normal = along;
+  if (!rock.poisson_ratio_normal) rock.poisson_ratio_normal = rock.poisson_ratio;
+  const double across = *rock.young_modulus_normal, nu = *rock.poisson_ratio_normal;
+  if (!rock.shear_modulus_normal) rock.shear_modulus_normal = 1.0 / (1.0 / along + (1.0 + 2.0 * nu) / across);
+  const double left = 1.0 - rock.poisson_ratio - 2.0 * nu * nu * along / across;
+  if (left <= 0.0) {
+    fail(given.latest({"rock.poisson_ratio", "rock.poisson_ratio_normal", "rock.young_modulus",
+                       "rock.young_modulus_normal"}),
+         fmt::format("straining such bedded rock would release energy: 1 - poisson_ratio - 2 "
+                     "poisson_ratio_normal^2 young_modulus/young_modulus_normal = {:g} has to be above 0",
+                     left));
+  }
+}
+
+void check_compliance(const Case& scene, const GivenKeys& given) {
+  if (scene.cohesive.compliance != "compensated" || scene.cohesive.insertion == "all") return;
+  fail(given.latest({"cohesive.compliance", "cohesive.insertion"}),
+       fmt::format("cohesive.compliance = \"compensated\" is for insertion = \"all\": with \"{}\" the edges "
+                   "have no compliance to make up for",
+                   scene.cohesive.insertion));
+}
+
 /// Two ways to say one thing: the later layer (including file over included file) wins.
 void finish_damping(Case::Damping& damping, const GivenKeys& given) {
   if (damping.viscosity && damping.ratio) {
@@ -139,6 +171,8 @@ void finish_case(ReadCase& read) {
   finish_run(scene, given);
   finish_pump(scene, given);
   finish_damping(scene.damping, given);
+  finish_bedding(scene.rock, given);
+  check_compliance(scene, given);
   if (scene.cohesive.penalty == 0.0) scene.cohesive.penalty = 20.0 * scene.rock.young_modulus;
   if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;
   if (scene.contact.tangential_penalty == 0.0) scene.contact.tangential_penalty = scene.cohesive.penalty;

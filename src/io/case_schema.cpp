@@ -108,11 +108,16 @@ std::vector<TableSpec> make_tables() {
       number("friction_angle", slot<&C::rock, &C::Rock::friction_angle>(), angle, friction, Need::always, "internal friction angle"),
       number("fracture_energy_mode1", slot<&C::rock, &C::Rock::fracture_energy_mode1>(), energy_per_area, breaking, Need::always, "fracture energy in opening"),
       number("fracture_energy_mode2", slot<&C::rock, &C::Rock::fracture_energy_mode2>(), energy_per_area, breaking, Need::always, "fracture energy in sliding"),
+      number("young_modulus_normal", slot<&C::rock, &C::Rock::young_modulus_normal>(), pressure, stiffness, Need::never, "across the bedding of bedded rock; young_modulus is along it", "none: not bedded"),
+      number("poisson_ratio_normal", slot<&C::rock, &C::Rock::poisson_ratio_normal>(), plain, poisson, Need::never, "strain along the bedding under stress across it", "rock.poisson_ratio, in bedded rock"),
+      number("shear_modulus_normal", slot<&C::rock, &C::Rock::shear_modulus_normal>(), pressure, stiffness, Need::never, "shear modulus across the bedding", "that of Saint-Venant, in bedded rock"),
+      number("bedding_angle", slot<&C::rock, &C::Rock::bedding_angle>(), angle, any, Need::never, "from x to the bedding, anticlockwise"),
     }},
     {"cohesive", {
       choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear", "benzeggagh_kenane"}, "softening law of the cohesive elements"),
       choice("calibration", slot<&C::cohesive, &C::Cohesive::calibration>(), {"y_geo", "exact"}, "of the softening length: 3G/f, or so that G is dissipated"),
       choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all"}, "which edges carry a cohesive element"),
+      choice("compliance", slot<&C::cohesive, &C::Cohesive::compliance>(), {"kept", "compensated"}, "of the elements on all edges: kept, or made up for by stiffer triangles"),
       number("penalty", slot<&C::cohesive, &C::Cohesive::penalty>(), pressure, not_negative, Need::never, "stiffness times edge length before softening", "20 rock.young_modulus"),
     }},
     {"contact", {

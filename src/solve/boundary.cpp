@@ -12,7 +12,6 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
                                      std::span<const Vec2> loads) {
-  const WaveSpeeds c = wave_speeds(stiffness, density);
   std::map<Index, Node> nodes;
   for (const Edge& edge : state.mesh->edges) {
     if (edge.kind != EdgeKind::outer) continue;
@@ -21,6 +20,7 @@ AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& s
     const Vec2 along = state.reference(second) - state.reference(first);
     const double half = 0.5 * norm(along);
     const Vec2 n = (0.5 / half) * right_normal(along);
+    const WaveSpeeds c = wave_speeds(stiffness, density, n);
     // ρ [c_p n nᵀ + c_s (1 − n nᵀ)] L/2
     const double p = density * c.p * half, q = density * c.s * half;
     const Sym2 dashpot{q + (p - q) * n.x * n.x, q + (p - q) * n.y * n.y, (p - q) * n.x * n.y};

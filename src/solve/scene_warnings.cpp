@@ -57,6 +57,7 @@ void coarse_edges(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
 }
 
 void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  if (scene.triangle_stiffness) return;  // made up for
   const double modulus = plane_strain_modulus(scene.stiffness);
   const ModulusRatio ratio = artificial_modulus_ratio(modulus, scene.stiffness.c66, scene.cohesive.penalty,
                                                       mesh.sum_length2_over_area);
@@ -65,7 +66,8 @@ void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& line
   lines.push_back(fmt::format(
       "warning: cohesive elements make the rock softer than given: E' = {:.0f} % ({} of {}), G = {:.0f} %; "
       "compare "
-      "with theory at these moduli, or take cohesive.penalty = {} for {:.0f} % (the step falls to {:.2f} of "
+      "with theory at these moduli, or take cohesive.compliance = \"compensated\", or cohesive.penalty = {} "
+      "for {:.0f} % (the step falls to {:.2f} of "
       "this one)",
       100.0 * ratio.young, gigapascal(ratio.young * modulus), gigapascal(modulus), 100.0 * ratio.shear,
       gigapascal(enough), 100.0 * modulus_wanted, std::sqrt(scene.cohesive.penalty / enough)));

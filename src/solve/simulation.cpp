@@ -82,7 +82,8 @@ std::vector<Vec2> geostatic_displacement(const Scene& scene, const Bulk& bulk) {
 
 Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)),
-      bulk_(*scene_.mesh, scene_.stiffness, scene_.density, scene_.stress, scene_.damping) {
+      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density, scene_.stress,
+            scene_.damping) {
   // First, while there is little else in memory: the factorisation is the largest thing of all.
   const std::vector<Vec2> displacement = geostatic_displacement(scene_, bulk_);
   state_ = scene_.law ? make_split_state(scene_.mesh) : make_tied_state(scene_.mesh);

@@ -152,6 +152,12 @@ inline double elastic_energy(double stiffness, double curvature, double tensile_
          stiffness;
 }
 
+/// Compliance [1/Pa], the same for all components of plane stress, that a penalty on all edges adds to
+/// rock: Δε = (Σ L²/(2 A p_f)) σ. @param sum_length2_over_area over interior edges
+inline double artificial_compliance(double penalty, double sum_length2_over_area) {
+  return sum_length2_over_area / (2.0 * penalty);
+}
+
 /// Young's modulus and shear modulus of rock with the penalty's compliance on all edges, over those
 /// of the rock: E'_eff/E' = 1/(1 + S E'/(2 p_f)), G_eff/G = 1/(1 + S G/p_f), S = Σ L²/A over
 /// interior edges (2√3 for equilateral triangles). Derived for uniform stress; within 1.5 %.

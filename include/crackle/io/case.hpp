@@ -46,12 +46,18 @@ struct Case {
     double friction_angle = 0.0;         ///< internal friction angle [rad]
     double fracture_energy_mode1 = 0.0;  ///< [J/m2]
     double fracture_energy_mode2 = 0.0;  ///< [J/m2]
+    // Bedded rock (transversely isotropic): the moduli above are those along the bedding.
+    std::optional<double> young_modulus_normal = {};  ///< across the bedding [Pa]; none: not bedded
+    std::optional<double> poisson_ratio_normal = {};  ///< strain along it under stress across it [-]
+    std::optional<double> shear_modulus_normal = {};  ///< across it [Pa]
+    double bedding_angle = 0.0;                       ///< from x to the bedding, anticlockwise [rad]
   } rock;
 
   struct Cohesive {
     std::string law = "evans_marathe";  ///< a registered law
     std::string calibration = "exact";  ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
     std::string insertion = "all";      ///< where cohesive elements are: "all" edges
+    std::string compliance = "kept";    ///< of the elements: "kept", or "compensated" by stiffer triangles
     double penalty = 0.0;               ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
   } cohesive;
 

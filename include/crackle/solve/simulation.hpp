@@ -22,8 +22,9 @@ namespace crackle {
 struct Scene {
   std::shared_ptr<const Mesh> mesh;  ///< excavated
   PlaneStiffness stiffness;
-  double density = 0.0;  ///< [kg/m3]
-  Sym2 stress;           ///< in situ, effective [Pa]
+  std::optional<PlaneStiffness> triangle_stiffness;  ///< where it is not the rock's, see compensated()
+  double density = 0.0;                              ///< [kg/m3]
+  Sym2 stress;                                       ///< in situ, effective [Pa]
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
   CohesiveMaterial cohesive;

@@ -11,9 +11,10 @@ namespace {
 using granite::at;
 
 // A pulse that runs along x, moving the rock along `motion`; sides at y = 0 and 0.05 m move only that way.
-double speed_error(Vec2 motion, double exact) {
+double speed_error(Vec2 motion, double exact, const PlaneStiffness& stiffness = granite::stiffness()) {
   Mesh strip = jittered(structured_rectangle({0, 0}, {1, 0.05}, 200, 10, MeshPattern::cross), 0.2, 4);
   Scene scene = granite::scene(granite::free_body(std::move(strip)));
+  scene.stiffness = stiffness;
   Simulation simulation(scene);
   State& state = simulation.state();
   const double dt = 0.8 * simulation.stable().limit;
@@ -59,6 +60,21 @@ TEST(Wave, SpeedOfS) {
   const double error = speed_error({0, 1}, 2347.72);
   std::printf("S wave: speed %+.3f %%\n", 100 * error);
   EXPECT_LT(std::abs(error), 0.01);
+}
+
+// The shale of validation.md A5: P waves along and across its bedding, and S waves.
+TEST(Wave, SpeedsInBeddedRock) {
+  const TransverseIsotropy level{40e9, 20e9, 0.2, 0.25, 9e9, 0.0};
+  TransverseIsotropy upright = level;
+  upright.bedding_angle = 0.5 * std::numbers::pi;
+  const double along = std::sqrt(53.030303e9 / granite::density),
+               across = std::sqrt(29.090909e9 / granite::density), shear = std::sqrt(9e9 / granite::density);
+  const double errors[] = {speed_error({1, 0}, along, transversely_isotropic_plane_strain(level)),
+                           speed_error({1, 0}, across, transversely_isotropic_plane_strain(upright)),
+                           speed_error({0, 1}, shear, transversely_isotropic_plane_strain(level))};
+  std::printf("bedded rock: P along %+.3f %%, P across %+.3f %%, S %+.3f %%\n", 100 * errors[0],
+              100 * errors[1], 100 * errors[2]);
+  for (const double error : errors) EXPECT_LT(std::abs(error), 0.01);
 }
 
 }  // namespace
