@@ -27,8 +27,8 @@ TEST(ResolvedToml, ReadsBackToTheSameText) {
 }
 
 TEST(ResolvedToml, HoldsEveryKeyOnce) {
-  const std::string text =
-      resolved_toml(read_case(good_path, {"damping.viscosity=3", "output.fields=['a']"}));
+  const std::string text = resolved_toml(
+      read_case(good_path, {"damping.viscosity=3", "output.fields=['a']", "rock.young_modulus_normal=30e9"}));
   // absent: a list of included files, the damping that was not chosen, a mesh file
   const std::set<std::string> absent = {"include", "ratio", "file"};
   for (const CaseKey& key : case_keys()) {
@@ -60,6 +60,18 @@ TEST(ResolvedToml, KeepsTexts) {
   const Case back = parse_case(resolved_toml(scene), "resolved.toml");
   EXPECT_EQ(back.title, scene.title);
   EXPECT_EQ(back.output.fields, scene.output.fields);
+}
+
+// The other moduli of bedded rock follow from those given.
+TEST(ResolvedToml, FillsInTheModuliAcrossTheBedding) {
+  const Case scene = read_case(good_path, {"rock.young_modulus_normal=20 GPa", "rock.bedding_angle=30 deg"});
+  const Case back = parse_case(resolved_toml(scene), "resolved.toml");
+  const double nu = scene.rock.poisson_ratio;
+  EXPECT_EQ(back.rock.poisson_ratio_normal, nu);
+  EXPECT_DOUBLE_EQ(back.rock.shear_modulus_normal.value(),
+                   1.0 / (1.0 / scene.rock.young_modulus + (1.0 + 2.0 * nu) / 20e9));
+  EXPECT_EQ(back.rock.bedding_angle, scene.rock.bedding_angle);
+  EXPECT_FALSE(read_case(good_path).rock.shear_modulus_normal);
 }
 
 TEST(ResolvedToml, KeepsPumpStagesAndTheChosenDamping) {
