@@ -229,16 +229,12 @@ void refine(Draft& draft, const SizeField& size, const std::vector<Vec2>& start,
   draft = std::move(result);
 }
 
-Draft make_cgal_draft(const MeshRecipe& recipe) {
-  const SizeField size(recipe);
-  Draft draft = arrange(recipe);
-  subdivide(draft, size);
+void fill_by_cgal(Draft& draft, const MeshRecipe& recipe, const SizeField& size) {
   std::vector<Vec2> start;
   Random random(recipe.seed);
   scatter(start, size, random, {0.0, 0.0}, std::max(recipe.width, recipe.height));
   refine(draft, size, start, 1.0, random);
   smooth(draft, size);
-  return draft;
 }
 
 }  // namespace crackle::meshing

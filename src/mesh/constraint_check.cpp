@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every constraint has to be a chain of edges: a generator may drop one without a word.
+// Every joint has to be a chain of edges: a generator may drop one without a word.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void require_constraints(const Mesh& mesh, const std::vector<Constraint>& constr
         const Index other = edge.vertex[0] == here ? edge.vertex[1] : edge.vertex[0];
         const Vec2 at = mesh.vertices[other] - from;
         const bool ahead = dot(at, along) > dot(mesh.vertices[here] - from, along);
-        if (ahead && std::abs(cross(along, at)) <= tolerance && (constraint.joint < 0 || edge.joint >= 0)) {
+        if (ahead && std::abs(cross(along, at)) <= tolerance && (!constraint.joint || edge.joint >= 0)) {
           next = other;
         }
       }
@@ -64,9 +64,9 @@ void require_constraints(const Mesh& mesh, const std::vector<Constraint>& constr
     if (here < 0 || here != last) {
       const Vec2 lost = here < 0 ? from : mesh.vertices[here];
       throw MeshError(fmt::format(
-          "the constraint from ({:.6g}, {:.6g}) m to ({:.6g}, {:.6g}) m is not in the mesh beyond "
+          "the {} from ({:.6g}, {:.6g}) m to ({:.6g}, {:.6g}) m is not in the mesh beyond "
           "({:.6g}, {:.6g}) m: move it away from its neighbours, or use the other generator",
-          from.x, from.y, to.x, to.y, lost.x, lost.y));
+          constraint.joint ? "joint" : "wall", from.x, from.y, to.x, to.y, lost.x, lost.y));
     }
   }
 }

@@ -20,6 +20,8 @@ Mesh excavate(const Mesh& mesh) {
   }
 
   Mesh rock;
+  rock.set_of_joint = mesh.set_of_joint;
+  rock.joint_sets = mesh.joint_sets;
   std::vector<bool> used(mesh.vertices.size(), false);
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.regions[t] == Region::wellbore_core) continue;

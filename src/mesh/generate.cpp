@@ -11,11 +11,27 @@
 namespace crackle {
 namespace {
 
-meshing::Draft make_draft(const MeshRecipe& recipe) {
-  if (recipe.generator == "cgal") return meshing::make_cgal_draft(recipe);
-  if (recipe.generator == "gmsh") return meshing::make_gmsh_draft(recipe);
+using meshing::Line;
+using meshing::Segment;
+
+void fill(meshing::Draft& draft, const MeshRecipe& recipe, const meshing::SizeField& size) {
+  if (recipe.generator == "cgal") return meshing::fill_by_cgal(draft, recipe, size);
+  if (recipe.generator == "gmsh") return meshing::fill_by_gmsh(draft, recipe, size);
   throw MeshError(
       fmt::format("there is no mesh generator \"{}\": use \"cgal\" or \"gmsh\"", recipe.generator));
+}
+
+/// What has to be in the mesh: the wellbore's wall and the joints.
+std::vector<meshing::Constraint> lines_of(const meshing::Draft& draft, const std::vector<Vec2>& wellbore) {
+  std::vector<meshing::Constraint> lines;
+  for (std::size_t k = 0; k < wellbore.size(); ++k) {
+    lines.push_back({wellbore[k], wellbore[(k + 1) % wellbore.size()], false});
+  }
+  for (const Segment& segment : draft.segments) {
+    if (segment.joint < 0) continue;
+    lines.push_back({draft.points[segment.end[0]], draft.points[segment.end[1]], true});
+  }
+  return lines;
 }
 
 Mesh to_mesh(meshing::Draft&& draft, const std::vector<Vec2>& wellbore) {
@@ -45,17 +61,21 @@ Mesh to_mesh(meshing::Draft&& draft, const std::vector<Vec2>& wellbore) {
 
 }  // namespace
 
-Mesh generate_mesh(const MeshRecipe& recipe) {
+Mesh generate_mesh(const MeshRecipe& recipe, NetworkReport* report) {
   meshing::check_recipe(recipe);
+  const meshing::SizeField size(recipe);
+  NetworkReport network;
+  meshing::Draft draft = meshing::draw_lines(recipe, size, network);
   const std::vector<Vec2> wellbore = meshing::wellbore_polygon(recipe);
-  Mesh mesh = to_mesh(make_draft(recipe), wellbore);
+  const std::vector<meshing::Constraint> lines = lines_of(draft, wellbore);
+  fill(draft, recipe, size);
+  Mesh mesh = to_mesh(std::move(draft), wellbore);
+  for (const Joint& joint : recipe.joints) mesh.set_of_joint.push_back(joint.set);
+  mesh.joint_sets = recipe.joint_sets;
+  if (mesh.joint_sets.empty() && !recipe.joints.empty()) mesh.joint_sets = {""};
   order_along_hilbert_curve(mesh);
-
-  std::vector<Constraint> present = recipe.constraints;
-  for (std::size_t k = 0; k < wellbore.size(); ++k) {
-    present.push_back({wellbore[k], wellbore[(k + 1) % wellbore.size()], -1});
-  }
-  meshing::require_constraints(mesh, present);
+  meshing::require_constraints(mesh, lines);
+  if (report != nullptr) *report = network;
   return mesh;
 }
 

@@ -46,7 +46,7 @@ std::vector<int> loop_of(const Draft& draft, Line line) {
     from = draft.segments[i].end[forward ? 1 : 0];
     const auto& both = at.at(from);
     if (both.size() != 2)
-      throw MeshError("a constraint runs along part of the wellbore or boundary: move it");
+      throw MeshError("a joint runs along part of the wellbore or boundary: move it");
     i = both[0] == i ? both[1] : both[0];
   }
   return loop;
@@ -69,7 +69,7 @@ void build_geometry(const Draft& draft, const std::vector<Vec2>& wellbore) {
   for (std::size_t i = 0; i < draft.segments.size(); ++i) {
     const Segment& segment = draft.segments[i];
     geo::addLine(segment.end[0] + 1, segment.end[1] + 1, curve_tag(i));
-    if (segment.line != Line::constraint) continue;
+    if (segment.line != Line::joint) continue;
     const Vec2 middle = 0.5 * (draft.points[segment.end[0]] + draft.points[segment.end[1]]);
     (inside_polygon(wellbore, middle) ? in_core : in_rock).push_back(curve_tag(i));
   }
@@ -108,10 +108,7 @@ std::vector<Vec2> read_points(const SizeField& size, std::uint64_t seed) {
 
 }  // namespace
 
-Draft make_gmsh_draft(const MeshRecipe& recipe) {
-  const SizeField size(recipe);
-  Draft draft = arrange(recipe);
-  subdivide(draft, size);
+void fill_by_gmsh(Draft& draft, const MeshRecipe& recipe, const SizeField& size) {
   std::vector<Vec2> points;
   with_gmsh("gmsh cannot mesh the recipe", [&] {
     set_options();
@@ -125,7 +122,6 @@ Draft make_gmsh_draft(const MeshRecipe& recipe) {
   Random random(recipe.seed);
   refine(draft, size, points, 0.5, random);
   smooth(draft, size);
-  return draft;
 }
 
 }  // namespace crackle::meshing

@@ -17,11 +17,13 @@ constexpr int gmsh_triangle = 2;
 constexpr const char* gmsh_core_name = "wellbore_core";  // surface
 constexpr const char* gmsh_wall_name = "wellbore_wall";  // curve: the wall of an excavated wellbore
 
-/// "joint_000012" for joint 12.
-std::string joint_name(Index joint);
+/// "joint_bedding_000012" for joint 12 of the set "bedding"; "joint_000012" of a set without a name.
+std::string joint_name(const std::string& set, Index joint);
 
-/// Orders names as people number them, joint2 before joint10: by what stands before the digits at
-/// the end, then by the number, then by the whole name.
+/// "bedding" of "joint_bedding_000012" and of "joint_bedding"; "" of "joint12".
+std::string set_of_joint_name(const std::string& name);
+
+/// Orders names as people number them: by the number at their end (none: first), then by name.
 bool joint_name_before(const std::string& a, const std::string& b);
 
 }  // namespace crackle::meshing

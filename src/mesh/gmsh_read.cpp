@@ -137,7 +137,8 @@ void refuse_duplicate_vertices(const Mesh& mesh) {
   }
 }
 
-std::vector<EdgeMark> read_marks(const std::map<std::size_t, Index>& vertex) {
+/// Edges of joints and wall; the mesh gets the joints' sets.
+std::vector<EdgeMark> read_marks(const std::map<std::size_t, Index>& vertex, Mesh& mesh) {
   std::vector<EdgeMark> marks;
   const auto collect = [&](const std::vector<int>& entities, EdgeKind kind, Index joint) {
     for (const int entity : entities) {
@@ -158,8 +159,13 @@ std::vector<EdgeMark> read_marks(const std::map<std::size_t, Index>& vertex) {
     if (name == meshing::gmsh_wall_name) collect(entities, EdgeKind::wellbore, -1);
     if (name.starts_with("joint")) joints[name] = entities;
   }
-  Index joint = 0;
-  for (const auto& [name, entities] : joints) collect(entities, EdgeKind::interior, joint++);
+  for (const auto& [name, entities] : joints) {
+    collect(entities, EdgeKind::interior, static_cast<Index>(mesh.set_of_joint.size()));
+    const std::string set = meshing::set_of_joint_name(name);
+    const auto known = std::find(mesh.joint_sets.begin(), mesh.joint_sets.end(), set);
+    mesh.set_of_joint.push_back(static_cast<Index>(known - mesh.joint_sets.begin()));
+    if (known == mesh.joint_sets.end()) mesh.joint_sets.push_back(set);
+  }
   return marks;
 }
 
@@ -184,7 +190,7 @@ Mesh read_open_model() {
     mesh.regions.push_back(triangle.region);
   }
   build_edges(mesh);
-  const auto missing = meshing::apply_edge_marks(mesh, read_marks(vertex));
+  const auto missing = meshing::apply_edge_marks(mesh, read_marks(vertex, mesh));
   if (!missing.empty()) {
     const Vec2 at = mesh.vertices[missing.front().vertex[0]];
     throw MeshError(fmt::format(

@@ -57,7 +57,7 @@ void add_curve(const Mesh& mesh, const std::vector<Index>& edges, int curve, con
 
 void add_curves(const Mesh& mesh) {
   std::vector<Index> wall;
-  std::vector<std::vector<Index>> joints;
+  std::vector<std::vector<Index>> joints(mesh.set_of_joint.size());
   for (Index e = 0; e < mesh.edge_count(); ++e) {
     const Edge& edge = mesh.edges[e];
     if (edge.kind == EdgeKind::wellbore) wall.push_back(e);
@@ -68,7 +68,9 @@ void add_curves(const Mesh& mesh) {
   if (!wall.empty()) add_curve(mesh, wall, wall_curve, meshing::gmsh_wall_name);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Index joint = static_cast<Index>(j);
-    add_curve(mesh, joints[j], first_joint_curve + joint, meshing::joint_name(joint));
+    const bool in_set = j < mesh.set_of_joint.size() && !mesh.joint_sets.empty();
+    const std::string set = in_set ? mesh.joint_sets[mesh.set_of_joint[j]] : "";
+    add_curve(mesh, joints[j], first_joint_curve + joint, meshing::joint_name(set, joint));
   }
 }
 

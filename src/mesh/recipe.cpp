@@ -74,17 +74,17 @@ void check_recipe(const MeshRecipe& recipe) {
                     recipe.wellbore_segments));
   }
   const double a = 0.5 * recipe.width, b = 0.5 * recipe.height;
-  for (const Constraint& constraint : recipe.constraints) {
-    for (const Vec2 p : {constraint.from, constraint.to}) {
-      if (!(std::abs(p.x) <= a) || !(std::abs(p.y) <= b)) {
-        throw MeshError(fmt::format(
-            "a constraint ends at ({} m, {} m), outside the domain of {} m x {} m: cut it at the boundary",
-            p.x, p.y, recipe.width, recipe.height));
-      }
+  for (std::size_t j = 0; j < recipe.joints.size(); ++j) {
+    const auto& [from, to, set] = recipe.joints[j];
+    const double length = norm(to - from);
+    if (!std::isfinite(length) || !(norm(from) < 1e6)) {
+      throw MeshError(fmt::format("joint {} has an end that is no place, or is farther than 1000 km away", j));
     }
-    if (norm(constraint.to - constraint.from) < 1e-9 * std::max(a, b)) {
-      throw MeshError(fmt::format("the constraint at ({} m, {} m) has no length: remove it",
-                                  constraint.from.x, constraint.from.y));
+    if (length < 1e-9 * std::max(a, b)) {
+      throw MeshError(fmt::format("joint {} at ({} m, {} m) has no length: remove it", j, from.x, from.y));
+    }
+    if (set < 0 || (set > 0 && set >= static_cast<Index>(recipe.joint_sets.size()))) {
+      throw MeshError(fmt::format("joint {} is of set {}, but there are {} sets", j, set, recipe.joint_sets.size()));
     }
   }
   const double expected = estimate_triangles(recipe);

@@ -14,7 +14,7 @@ constexpr double growth_from_wall = 0.25;  // of size with distance: gentle enou
 }
 
 SizeField::SizeField(const MeshRecipe& recipe) : recipe_(recipe) {
-  recipe_.constraints.clear();
+  recipe_.joints.clear();
   const std::vector<Vec2> polygon = wellbore_polygon(recipe);
   if (polygon.empty()) return;
   wall_radius_ = 0.5 * recipe.wellbore_diameter;

@@ -13,7 +13,7 @@ class SizeField {
   double operator()(Vec2 point) const;
 
  private:
-  MeshRecipe recipe_;  ///< without its constraints
+  MeshRecipe recipe_;  ///< without its joints
   double wall_radius_ = 0.0;
   double wall_edge_ = 0.0;
 };

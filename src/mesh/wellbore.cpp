@@ -6,20 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "portable_math.hpp"
+
 namespace crackle::meshing {
 namespace {
-
-/// cos and sin of an angle in [0, pi/4] by their series. The C library's own differ in the last bit
-/// between CPUs with and without fused multiply-add, and a mesh has to be the same on both.
-Vec2 direction_in_first_octant(double angle) {
-  const double square = angle * angle;
-  double cosine = 0.0, sine = 0.0;
-  for (int n = 20; n >= 0; n -= 2) {  // Horner: 1 - x^2/(1*2) (1 - x^2/(3*4) (...))
-    cosine = 1.0 - square / ((n + 1.0) * (n + 2.0)) * cosine;
-    sine = 1.0 - square / ((n + 2.0) * (n + 3.0)) * sine;
-  }
-  return {cosine, angle * sine};
-}
 
 /// Direction of corner k of n: k/n of a full turn, exact at multiples of a quarter turn.
 Vec2 direction(std::int64_t k, std::int64_t n) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crackle/core/vec2.hpp"
+#include "crackle/mesh/joints.hpp"
 
 namespace crackle {
 
@@ -45,16 +46,12 @@ struct Mesh {
   std::vector<Region> regions;                  ///< one per triangle
   std::vector<Edge> edges;
   std::vector<std::array<Index, 3>> triangle_edges;  ///< edge on each side of each triangle
+  std::vector<Index> set_of_joint;                   ///< of each joint that edges name: which of joint_sets
+  std::vector<std::string> joint_sets;               ///< names
 
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }
   Index vertex_count() const { return static_cast<Index>(vertices.size()); }
   Index edge_count() const { return static_cast<Index>(edges.size()); }
-};
-
-/// A segment that has to appear as edges of the mesh [m], with the kind or joint its edges get.
-struct Constraint {
-  Vec2 from, to;
-  Index joint = -1;
 };
 
 /// What to mesh: a rectangle centred on the origin, with a polygonal wellbore (its core meshed
@@ -70,7 +67,28 @@ struct MeshRecipe {
   double fine_radius = 0.0;        ///< [m]
   double size_coarse = 0.0;        ///< target edge length at the outer boundary [m]
   std::uint64_t seed = 1;          ///< shifts the interior points; same seed, same mesh on any CPU
-  std::vector<Constraint> constraints;
+  std::vector<Joint> joints;
+  std::vector<std::string> joint_sets;  ///< names of the sets that joints are of
+};
+
+/// What became of a network of joints in a mesh. Joints nearer to one another (or to the wellbore) than
+/// an edge can show are moved together: joints at a sharp angle run as one until they are apart.
+struct NetworkReport {
+  Index joints = 0;             ///< of the recipe
+  Index shown = 0;              ///< with edges of their own
+  Index merged = 0;             ///< that run along others on their whole length
+  Index too_short = 0;          ///< left out: shorter than an edge can be
+  Index outside = 0;            ///< left out: in the wellbore or outside the domain
+  Index junctions = 0;          ///< points where joints meet
+  Index sharp = 0;              ///< angles below 20 degrees between joints of the recipe
+  double sharpest_deg = 180.0;  ///< the smallest of them
+  Vec2 sharpest_at;             ///< [m]
+  Index snapped = 0;            ///< points that were moved onto a point or line nearby
+  double largest_move = 0.0;    ///< largest distance of an edge from the joint it stands for [m]
+  Vec2 largest_move_at;         ///< [m]
+  double smallest_angle_deg = 180.0;  ///< between joints in the mesh
+  double shortest_edge = 0.0;         ///< of joints in the mesh [m]; 0: none
+  double length = 0.0;                ///< of all joints in the mesh [m]
 };
 
 /// Target edge length [m] of a recipe at a point.
@@ -80,8 +98,9 @@ double target_size(const MeshRecipe& recipe, Vec2 point);
 double estimate_triangles(const MeshRecipe& recipe);
 
 /// Makes the mesh by the recipe's generator, orders it along a Hilbert curve and derives edges.
-/// Every constraint is checked to be present as edges afterwards. @throws MeshError
-Mesh generate_mesh(const MeshRecipe& recipe);
+/// Every joint and the wellbore's wall are checked to be present as edges afterwards.
+/// @param report where given, what became of the joints. @throws MeshError
+Mesh generate_mesh(const MeshRecipe& recipe, NetworkReport* report = nullptr);
 
 /// Derives `edges` and `triangle_edges` from `triangles` (edge kinds: interior or outer).
 /// Turns clockwise triangles round. @throws MeshError on an edge with more than two triangles,
@@ -115,9 +134,10 @@ MeshQuality measure_quality(const Mesh& mesh, const MeshRecipe* recipe);
 void require_quality(const Mesh& mesh, const MeshQuality& quality, double min_angle_deg);
 
 /// Reads a gmsh file (.msh, any version that libgmsh reads). Physical surfaces named
-/// "wellbore_core" become Region::wellbore_core, all others rock; physical curves named "joint*"
-/// become joints, numbered from 0 in the order of their names (joint2 before joint10); boundary edges
-/// of the physical curve "wellbore_wall" become EdgeKind::wellbore. Vertices that no triangle uses are
+/// "wellbore_core" become Region::wellbore_core, all others rock; each physical curve named "joint*"
+/// becomes a joint, numbered from 0 by the numbers at the end of the names (none: first), then by name;
+/// what stands between is the name of its set: "joint_bedding_12" is of the set "bedding", "joint12" of
+/// one without a name. Boundary edges of the curve "wellbore_wall" become EdgeKind::wellbore. Vertices that no triangle uses are
 /// dropped. Not to be called from two threads at once, nor write_gmsh: gmsh has global state.
 /// @throws MeshError
 Mesh read_gmsh(const std::string& path);

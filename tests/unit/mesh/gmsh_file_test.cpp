@@ -21,6 +21,8 @@ void expect_same(const Mesh& read, const Mesh& written) {
   ASSERT_EQ(read.vertices, written.vertices);  // to the last bit
   ASSERT_EQ(read.triangles, written.triangles);
   EXPECT_EQ(read.regions, written.regions);
+  EXPECT_EQ(read.set_of_joint, written.set_of_joint);
+  EXPECT_EQ(read.joint_sets, written.joint_sets);
   ASSERT_EQ(read.edge_count(), written.edge_count());
   for (Index e = 0; e < read.edge_count(); ++e) {
     EXPECT_EQ(read.edges[e].vertex, written.edges[e].vertex);
@@ -38,7 +40,14 @@ void expect_round_trip(const Mesh& mesh) {
 
 TEST(GmshFile, RoundTripIsExact) {
   MeshRecipe recipe = test::small_recipe();
-  recipe.constraints = {{{0.1, 0.1}, {0.4, 0.4}, 0}, {{0.1, 0.4}, {0.4, 0.1}, 3}, {{-0.3, 0}, {0.3, 0}, 11}};
+  recipe.joints = {{{0.1, 0.1}, {0.4, 0.4}}, {{0.1, 0.4}, {0.4, 0.1}}, {{-0.3, 0}, {0.3, 0}}};
+  expect_round_trip(generate_mesh(recipe));
+  recipe.joint_sets = {"bedding", "set_2", "north-fault"};
+  recipe.joints = {{{0.1, 0.1}, {0.4, 0.4}, 0},
+                   {{0.1, 0.4}, {0.4, 0.1}, 1},
+                   {{9.0, 9.0}, {9.5, 9.0}, 1},  // outside: keeps its number
+                   {{-0.3, 0}, {0.3, 0}, 0},
+                   {{-0.3, 0.2}, {0.3, 0.3}, 2}};
   const Mesh mesh = generate_mesh(recipe);
   expect_round_trip(mesh);
   expect_round_trip(excavate(mesh));

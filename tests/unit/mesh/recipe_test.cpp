@@ -47,13 +47,18 @@ TEST(Recipe, RefusesNonsense) {
       {"diameter", [](MeshRecipe& r) { r.wellbore_diameter = -0.1; }},
       {"does not fit", [](MeshRecipe& r) { r.wellbore_diameter = 1.0; }},
       {"polygon", [](MeshRecipe& r) { r.wellbore_segments = 2; }},
-      {"outside the domain",
-       [](MeshRecipe& r) {
-         r.constraints = {{{0, 0}, {0.6, 0}, 0}};
-       }},
       {"no length",
        [](MeshRecipe& r) {
-         r.constraints = {{{0.2, 0.2}, {0.2, 0.2}, 0}};
+         r.joints = {{{0.2, 0.2}, {0.2, 0.2}}};
+       }},
+      {"no place",
+       [](MeshRecipe& r) {
+         r.joints = {{{0.2, 0.2}, {0.2, std::numeric_limits<double>::quiet_NaN()}}};
+       }},
+      {"of set 3, but there are 2 sets",
+       [](MeshRecipe& r) {
+         r.joints = {{{0.2, 0.2}, {0.3, 0.2}, 3}};
+         r.joint_sets = {"a", "b"};
        }},
       {"million", [](MeshRecipe& r) { r.size_fine = r.size_coarse = 1e-4; }},
   };
