@@ -81,8 +81,7 @@ void split_crossings(Draft& draft, const MeshRecipe& recipe) {
   for (const Segment& segment : draft.segments) {
     const Vec2 p = draft.points[segment.end[0]], q = draft.points[segment.end[1]];
     if (p == q) continue;
-    inserted.push_back(
-        arrangement.insert_constraint(Kernel::Point_2(p.x, p.y), Kernel::Point_2(q.x, q.y)));
+    inserted.push_back(arrangement.insert_constraint(Kernel::Point_2(p.x, p.y), Kernel::Point_2(q.x, q.y)));
     whole.push_back(segment);
   }
   draft.points.clear();

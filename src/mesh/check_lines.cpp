@@ -13,6 +13,8 @@ namespace crackle::meshing {
 namespace {
 
 constexpr double sharp_deg = 20.0;
+/// Edges stand for a joint within this many edge lengths of it: moves add up where joints are bundled.
+constexpr double reach = 1.5;
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// A part of a joint, as distances from its first end [m].
@@ -71,7 +73,7 @@ class JointCheck {
       ++report_.outside;
     } else if (parts.size() > hidden) {
       ++report_.merged;
-    } else if (rock <= size_(from + 0.5 * length * along)) {
+    } else if (rock <= reach * size_(from + 0.5 * length * along)) {
       ++report_.too_short;
       return;
     }
@@ -104,8 +106,8 @@ class JointCheck {
   bool add_shown(Index j, Vec2 from, Vec2 along, double length, std::vector<Part>& parts) {
     bool own = false;
     const Vec2 to = from + length * along;
-    const double reach = std::max(size_(from), size_(to));
-    const double low = std::min(from.x, to.x) - reach - widest_, high = std::max(from.x, to.x) + reach;
+    const double most = reach * std::max(size_(from), size_(to));
+    const double low = std::min(from.x, to.x) - most - widest_, high = std::max(from.x, to.x) + most;
     for (auto at = std::lower_bound(order_.begin(), order_.end(), std::pair(low, Index{-1}));
          at != order_.end() && at->first <= high; ++at) {
       const Segment& segment = draft_.segments[at->second];
@@ -127,10 +129,11 @@ class JointCheck {
           report_.largest_move = off;
           report_.largest_move_at = off_at;
         }
-      } else if (off > size_(off_at)) {
+      } else if (off > reach * size_(off_at)) {
         continue;
       }
-      parts.push_back({std::min(places[0], places[1]), std::max(places[0], places[1])});
+      const auto [first, last] = std::minmax(places[0], places[1]);
+      parts.push_back({std::clamp(first, 0.0, length), std::clamp(last, 0.0, length)});
     }
     return own;
   }
@@ -141,11 +144,11 @@ class JointCheck {
     double shown = 0.0;
     for (const Part& part : parts) {
       const Vec2 gap = from + 0.5 * (shown + part.from) * along;
-      if (part.from - shown > size_(gap)) {
-        throw MeshError(
-            fmt::format("joint {} is not in the mesh round ({:.6g}, {:.6g}) m, over {:.3g} m: take smaller elements "
-                        "there, or move it away from its neighbours",
-                        j, gap.x, gap.y, part.from - shown));
+      if (part.from - shown > reach * size_(gap)) {
+        throw MeshError(fmt::format(
+            "joint {} is not in the mesh round ({:.6g}, {:.6g}) m, over {:.3g} m: take smaller elements "
+            "there, or move it away from its neighbours",
+            j, gap.x, gap.y, part.from - shown));
       }
       shown = std::max(shown, part.to);
     }
@@ -201,7 +204,8 @@ void check_lines(const Draft& draft, const MeshRecipe& recipe, const SizeField& 
     if (directions[v].size() > 2) ++report.junctions;
     for (std::size_t i = 0; i < directions[v].size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        report.smallest_angle_deg = std::min(report.smallest_angle_deg, angle_deg(directions[v][i], directions[v][k]));
+        report.smallest_angle_deg =
+            std::min(report.smallest_angle_deg, angle_deg(directions[v][i], directions[v][k]));
       }
     }
   }

@@ -63,10 +63,10 @@ void require_constraints(const Mesh& mesh, const std::vector<Constraint>& constr
     }
     if (here < 0 || here != last) {
       const Vec2 lost = here < 0 ? from : mesh.vertices[here];
-      throw MeshError(fmt::format(
-          "the {} from ({:.6g}, {:.6g}) m to ({:.6g}, {:.6g}) m is not in the mesh beyond "
-          "({:.6g}, {:.6g}) m: move it away from its neighbours, or use the other generator",
-          constraint.joint ? "joint" : "wall", from.x, from.y, to.x, to.y, lost.x, lost.y));
+      throw MeshError(
+          fmt::format("the {} from ({:.6g}, {:.6g}) m to ({:.6g}, {:.6g}) m is not in the mesh beyond "
+                      "({:.6g}, {:.6g}) m: move it away from its neighbours, or use the other generator",
+                      constraint.joint ? "joint" : "wall", from.x, from.y, to.x, to.y, lost.x, lost.y));
     }
   }
 }

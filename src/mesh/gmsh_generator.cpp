@@ -45,8 +45,7 @@ std::vector<int> loop_of(const Draft& draft, Line line) {
     loop.push_back(forward ? curve_tag(i) : -curve_tag(i));
     from = draft.segments[i].end[forward ? 1 : 0];
     const auto& both = at.at(from);
-    if (both.size() != 2)
-      throw MeshError("a joint runs along part of the wellbore or boundary: move it");
+    if (both.size() != 2) throw MeshError("a joint runs along part of the wellbore or boundary: move it");
     i = both[0] == i ? both[1] : both[0];
   }
   return loop;

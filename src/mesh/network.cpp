@@ -63,10 +63,10 @@ double draw_length(const JointLengths& lengths, Random& random) {
     const double length = draw_untruncated(lengths, random);
     if (length > 0.0 && length >= lengths.min && length <= lengths.max) return length;
   }
-  throw MeshError(
-      fmt::format("hardly any joint of mean length {:.6g} m comes out between the shortest ({:.6g} m) and the "
-                  "longest ({:.6g} m) allowed: change mean, deviation or limits",
-                  lengths.mean, lengths.min, lengths.max));
+  throw MeshError(fmt::format(
+      "hardly any joint of mean length {:.6g} m comes out between the shortest ({:.6g} m) and the "
+      "longest ({:.6g} m) allowed: change mean, deviation or limits",
+      lengths.mean, lengths.min, lengths.max));
 }
 
 /// Half the angle of a von Mises variate about 0, as a direction (Best and Fisher 1979).
@@ -120,8 +120,9 @@ double distance_from_origin(Vec2 middle, Vec2 direction, double length) {
 std::vector<Joint> generate_joints(const JointSet& set, Index number_of_set) {
   const double wanted = set.density * area(set.region);
   if (!(wanted <= most_joints)) {
-    throw MeshError(fmt::format("a density of {:.6g} joints per m2 on {:.6g} m2 makes more than a million joints",
-                                set.density, area(set.region)));
+    throw MeshError(
+        fmt::format("a density of {:.6g} joints per m2 on {:.6g} m2 makes more than a million joints",
+                    set.density, area(set.region)));
   }
   Random random(set.seed);
   std::vector<Joint> joints;

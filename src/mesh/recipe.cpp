@@ -78,13 +78,15 @@ void check_recipe(const MeshRecipe& recipe) {
     const auto& [from, to, set] = recipe.joints[j];
     const double length = norm(to - from);
     if (!std::isfinite(length) || !(norm(from) < 1e6)) {
-      throw MeshError(fmt::format("joint {} has an end that is no place, or is farther than 1000 km away", j));
+      throw MeshError(
+          fmt::format("joint {} has an end that is no place, or is farther than 1000 km away", j));
     }
     if (length < 1e-9 * std::max(a, b)) {
       throw MeshError(fmt::format("joint {} at ({} m, {} m) has no length: remove it", j, from.x, from.y));
     }
     if (set < 0 || (set > 0 && set >= static_cast<Index>(recipe.joint_sets.size()))) {
-      throw MeshError(fmt::format("joint {} is of set {}, but there are {} sets", j, set, recipe.joint_sets.size()));
+      throw MeshError(
+          fmt::format("joint {} is of set {}, but there are {} sets", j, set, recipe.joint_sets.size()));
     }
   }
   const double expected = estimate_triangles(recipe);

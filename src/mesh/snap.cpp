@@ -89,7 +89,8 @@ class Snapper {
     for (std::size_t v = 0; v < n; ++v) {
       on_joint_[v] = joints[v] > 0;
       if (hold_[v] == Hold::end && joints[v] > 1) hold_[v] = joints[v] > 2 ? Hold::junction : Hold::line;
-      if (std::binary_search(corners_.begin(), corners_.end(), draft_.points[v], before)) hold_[v] = Hold::corner;
+      if (std::binary_search(corners_.begin(), corners_.end(), draft_.points[v], before))
+        hold_[v] = Hold::corner;
     }
   }
 
@@ -98,8 +99,8 @@ class Snapper {
     for (Index v = 0; v < count(); ++v) {
       if (!on_wall_[v] || hold_[v] == Hold::corner) continue;
       const Vec2 p = draft_.points[v];
-      const auto nearest = std::min_element(wall_.begin(), wall_.end(),
-                                            [&](Vec2 q, Vec2 r) { return dot(q - p, q - p) < dot(r - p, r - p); });
+      const auto nearest = std::min_element(
+          wall_.begin(), wall_.end(), [&](Vec2 q, Vec2 r) { return dot(q - p, q - p) < dot(r - p, r - p); });
       pairs_.push_back({-1.0, v, find(*nearest), -1});
     }
   }
@@ -124,6 +125,7 @@ class Snapper {
       const Segment& segment = draft_.segments[s];
       const Vec2 p = draft_.points[segment.end[0]], q = draft_.points[segment.end[1]];
       const Vec2 along = q - p;
+      if (p == q) continue;  // two crossings that are rounded to one place: they will be one point
       const double most = std::max(reach_[segment.end[0]], reach_[segment.end[1]]);
       const double low = std::min(p.x, q.x) - most, high = std::max(p.x, q.x) + most;
       auto at = std::lower_bound(by_x_.begin(), by_x_.end(), low,
@@ -136,7 +138,7 @@ class Snapper {
         const double share = dot(here, along) / dot(along, along);
         const double distance = std::abs(cross(here, along)) / norm(along);
         if (share <= 0.0 || share >= 1.0 || distance >= reach_[v]) continue;
-        if (near_end(v, segment)) continue;
+        if (near_end(v, segment) || wide_angle(v, segment)) continue;
         pairs_.push_back({distance / reach_[v], v, -1, static_cast<Index>(s)});
       }
     }
@@ -151,6 +153,19 @@ class Snapper {
     for (const Index end : segment.end) {
       const bool both_firm = hold_[v] == Hold::corner && hold_[end] == Hold::corner;
       if (!both_firm && touch(v, end)) return true;
+    }
+    return false;
+  }
+
+  /// The segment leaves the boundary (or wall) near the point, but at a wide angle. To lead it over the
+  /// point would only turn the triangle of the two and its far end round, and then back again.
+  bool wide_angle(Index v, const Segment& segment) const {
+    if (hold_[v] < Hold::boundary) return false;
+    for (int i = 0; i < 2; ++i) {
+      const Vec2 end = draft_.points[segment.end[i]], along = draft_.points[segment.end[1 - i]] - end;
+      const Vec2 here = draft_.points[v] - end;
+      if (hold_[segment.end[i]] >= Hold::boundary && std::abs(cross(along, here)) >= dot(along, here))
+        return true;
     }
     return false;
   }

@@ -24,10 +24,10 @@ struct JointLengths {
     power_law,  ///< f(l) ~ l^-exponent between min and max (Bonnet et al. 2001, Eq. 9)
   };
   Law law = Law::constant;
-  double mean = 0.0;       ///< before truncation [m]
-  double deviation = 0.0;  ///< standard deviation before truncation [m]
-  double exponent = 0.0;   ///< of the power law
-  double min = 0.0;        ///< [m]
+  double mean = 0.0;                                     ///< before truncation [m]
+  double deviation = 0.0;                                ///< standard deviation before truncation [m]
+  double exponent = 0.0;                                 ///< of the power law
+  double min = 0.0;                                      ///< [m]
   double max = std::numeric_limits<double>::infinity();  ///< [m]
 };
 

@@ -74,18 +74,18 @@ struct MeshRecipe {
 /// What became of a network of joints in a mesh. Joints nearer to one another (or to the wellbore) than
 /// an edge can show are moved together: joints at a sharp angle run as one until they are apart.
 struct NetworkReport {
-  Index joints = 0;             ///< of the recipe
-  Index shown = 0;              ///< with edges of their own
-  Index merged = 0;             ///< that run along others on their whole length
-  Index too_short = 0;          ///< left out: shorter than an edge can be
-  Index outside = 0;            ///< left out: in the wellbore or outside the domain
-  Index junctions = 0;          ///< points where joints meet
-  Index sharp = 0;              ///< angles below 20 degrees between joints of the recipe
-  double sharpest_deg = 180.0;  ///< the smallest of them
-  Vec2 sharpest_at;             ///< [m]
-  Index snapped = 0;            ///< points that were moved onto a point or line nearby
-  double largest_move = 0.0;    ///< largest distance of an edge from the joint it stands for [m]
-  Vec2 largest_move_at;         ///< [m]
+  Index joints = 0;                   ///< of the recipe
+  Index shown = 0;                    ///< with edges of their own
+  Index merged = 0;                   ///< that run along others on their whole length
+  Index too_short = 0;                ///< left out: shorter than an edge can be
+  Index outside = 0;                  ///< left out: in the wellbore or outside the domain
+  Index junctions = 0;                ///< points where joints meet
+  Index sharp = 0;                    ///< angles below 20 degrees between joints of the recipe
+  double sharpest_deg = 180.0;        ///< the smallest of them
+  Vec2 sharpest_at;                   ///< [m]
+  Index snapped = 0;                  ///< points that were moved onto a point or line nearby
+  double largest_move = 0.0;          ///< largest distance of an edge from the joint it stands for [m]
+  Vec2 largest_move_at;               ///< [m]
   double smallest_angle_deg = 180.0;  ///< between joints in the mesh
   double shortest_edge = 0.0;         ///< of joints in the mesh [m]; 0: none
   double length = 0.0;                ///< of all joints in the mesh [m]
@@ -137,8 +137,9 @@ void require_quality(const Mesh& mesh, const MeshQuality& quality, double min_an
 /// "wellbore_core" become Region::wellbore_core, all others rock; each physical curve named "joint*"
 /// becomes a joint, numbered from 0 by the numbers at the end of the names (none: first), then by name;
 /// what stands between is the name of its set: "joint_bedding_12" is of the set "bedding", "joint12" of
-/// one without a name. Boundary edges of the curve "wellbore_wall" become EdgeKind::wellbore. Vertices that no triangle uses are
-/// dropped. Not to be called from two threads at once, nor write_gmsh: gmsh has global state.
+/// one without a name. Boundary edges of the curve "wellbore_wall" become EdgeKind::wellbore. Vertices that
+/// no triangle uses are dropped. Not to be called from two threads at once, nor write_gmsh: gmsh has global
+/// state.
 /// @throws MeshError
 Mesh read_gmsh(const std::string& path);
 

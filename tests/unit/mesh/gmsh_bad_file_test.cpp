@@ -80,10 +80,9 @@ TEST_F(GmshBadFile, NumbersJointsByTheirNames) {
 }
 
 TEST_F(GmshBadFile, ReadsTheSetOfAJointFromItsName) {
-  const Mesh mesh =
-      read(file(corners,
-                {"1 1 2 5 1 1 3", "2 1 2 6 2 2 3", "3 1 2 7 3 3 4", "8 2 2 9 1 1 2 3", "9 2 2 8 2 1 3 4"},
-                {"1 5 \"joint_set_2_7\"", "1 6 \"joint_fault\"", "1 7 \"joint12\""}));
+  const Mesh mesh = read(
+      file(corners, {"1 1 2 5 1 1 3", "2 1 2 6 2 2 3", "3 1 2 7 3 3 4", "8 2 2 9 1 1 2 3", "9 2 2 8 2 1 3 4"},
+           {"1 5 \"joint_set_2_7\"", "1 6 \"joint_fault\"", "1 7 \"joint12\""}));
   EXPECT_EQ(mesh.joint_sets, (std::vector<std::string>{"fault", "set_2", ""}));
   EXPECT_EQ(mesh.set_of_joint, (std::vector<Index>{0, 1, 2}));
   EXPECT_EQ(mesh.edges[mesh.triangle_edges[0][2]].joint, 1);  // the diagonal

@@ -134,8 +134,8 @@ TEST_P(Joints, ASharpAngleRunsAsOneUntilApart) {
   recipe_.joints = {{{0.1, 0.2}, {0.4, 0.2}}, {{0.1, 0.2}, {0.4, 0.23}}};
   const Mesh mesh = generate();
   const double smallest = measure_quality(mesh, nullptr).min_angle_deg;
-  std::printf("%s: two joints at 5.7 degrees: in the mesh at %.1f; smallest angle of triangles %.1f\n", GetParam(),
-              report_.smallest_angle_deg, smallest);
+  std::printf("%s: two joints at 5.7 degrees: in the mesh at %.1f; smallest angle of triangles %.1f\n",
+              GetParam(), report_.smallest_angle_deg, smallest);
   EXPECT_EQ(report_.sharp, 1);
   EXPECT_NEAR(report_.sharpest_deg, 5.7106, 1e-3);
   EXPECT_GE(report_.smallest_angle_deg, 15.0);
@@ -217,19 +217,20 @@ TEST_P(Joints, TheWallKeepsItsCornersAndItsRing) {
       const Vec2 out = from_wall ? q - p : p - q, normal = from_wall ? p : q;
       count += std::abs(cross(out, normal)) < 0.26 * norm(out) * norm(normal) ? 1 : 0;  // 15 degrees
     }
-    std::sort(corners.begin(), corners.end(), [](Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
+    std::sort(corners.begin(), corners.end(),
+              [](Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
     return std::pair(corners, count);
   };
   recipe_.size_fine = 0.003;
   const auto [corners, before] = rays(excavate(generate()));
-  recipe_.joints = {{{0.054, -0.05}, {0.054, 0.05}},     // passes at 4 mm
-                    {{-0.058, -0.01}, {-0.2, -0.02}},    // ends 8 mm off
-                    {{-0.0505, 0.03}, {-0.15, 0.1}},     // ends just off
-                    {{0.01, 0.01}, {0.1, 0.21}},         // out of the wellbore
-                    {{-0.03, -0.2}, {-0.035, 0.2}}};     // through it
+  recipe_.joints = {{{0.054, -0.05}, {0.054, 0.05}},   // passes at 4 mm
+                    {{-0.058, -0.01}, {-0.2, -0.02}},  // ends 8 mm off
+                    {{-0.0505, 0.03}, {-0.15, 0.1}},   // ends just off
+                    {{0.01, 0.01}, {0.1, 0.21}},       // out of the wellbore
+                    {{-0.03, -0.2}, {-0.035, 0.2}}};   // through it
   const auto [with, after] = rays(excavate(generate()));
-  std::printf("%zu corners, %d edges within 15 degrees of the normal; with joints %zu, %d\n", corners.size(), before,
-              with.size(), after);
+  std::printf("%zu corners, %d edges within 15 degrees of the normal; with joints %zu, %d\n", corners.size(),
+              before, with.size(), after);
   EXPECT_EQ(corners, with);
   EXPECT_GE(after, before - 8);
 }

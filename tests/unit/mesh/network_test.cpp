@@ -191,7 +191,8 @@ TEST(Network, JointsStayClearOfTheWellboreAndKeepTheirDensityElsewhere) {
     beyond += norm(0.5 * (joint.from + joint.to)) > 0.1 + 0.5 * 0.03 ? 1 : 0;
   }
   const double expected = count * std::numbers::pi * (0.25 - 0.115 * 0.115);
-  std::printf("clear circle of 0.1 m: nearest %.5f m, %d joints beyond, %.0f expected\n", nearest, beyond, expected);
+  std::printf("clear circle of 0.1 m: nearest %.5f m, %d joints beyond, %.0f expected\n", nearest, beyond,
+              expected);
   EXPECT_GE(nearest, 0.1);
   EXPECT_NEAR(beyond, expected, 5 * std::sqrt(expected));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
-
 #include "random_networks.hpp"
+
+#include <gtest/gtest.h>
 
 namespace crackle {
 namespace {
