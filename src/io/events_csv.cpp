@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crackle/io/output.hpp"
+#include "csv.hpp"
 #include "file.hpp"
 
 namespace crackle {
@@ -22,30 +23,11 @@ constexpr std::size_t columns = 11;
   throw CaseError(path + ":" + std::to_string(line) + ": " + what);
 }
 
-/// The next line of the text, without its line end; the text loses it.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 /// Reads the cells of one row; errors name the column.
 class RowReader {
  public:
   RowReader(const std::string& path, int line, std::string_view text)
-      : path_(path), line_(line), cells_(split(text)) {
+      : path_(path), line_(line), cells_(split_cells(text, ',')) {
     if (cells_.size() != columns) {
       throw_damaged(
           path_, line_,

@@ -21,7 +21,7 @@ ARROWS = {
     "state": {"mesh", "core"},
     **{room: STATE for room in PHYSICS},
     "solve": PHYSICS | STATE,
-    "io": {"mesh", "state", "seismic", "core"},
+    "io": {"mesh", "state", "seismic", "analysis", "core"},
     "analysis": {"core"},
 }
 ARROWS["cli"] = set(ARROWS)
