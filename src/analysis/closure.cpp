@@ -106,24 +106,28 @@ struct Tangent {
   const FallRate& rate;
 };
 
-/// Last point of the tangent from the origin to x dp/dx, and the slopes that belong to it.
+/// Last point near the tangent from the origin to x dp/dx.
 Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
-  const std::vector<double>& slope = t.rate.value;
+  constexpr double off = 0.1, left = 0.2, deviations = 4.0;
+  const std::vector<double>&slope = t.rate.value, &error = t.rate.error;
   const std::size_t first = first_for_tangent(f, contact);
-  const auto begin = slope.begin() + static_cast<std::ptrdiff_t>(first);
-  const std::size_t top = static_cast<std::size_t>(std::max_element(begin, slope.end() - 1) - slope.begin());
-  const double largest = slope[top], error = t.rate.error[top];
-  if (largest <= 8.0 * error) return none(t.name, "Pa", "pressure does not fall beyond noise");
-  const std::size_t end = f.size() - 1;
-  constexpr double off = 0.1, left = 0.2;
-  std::size_t last = top;
+  // beyond, the derivative has no full window
+  const std::size_t end =
+      std::max(first + 1, point_at(f, f.elapsed.back() * std::pow(10.0, -0.5 * f.window)));
+  std::size_t top = first;
+  for (std::size_t i = first; i < end; ++i) {
+    if (slope[i] - deviations * error[i] > slope[top] - deviations * error[top]) top = i;
+  }
+  const double largest = slope[top];
+  if (largest <= 2.0 * deviations * error[top])
+    return none(t.name, "Pa", "pressure does not fall beyond noise");
+  if (slope[end - 1] + deviations * error[end - 1] > (1.0 - left) * largest)
+    return none(t.name, "Pa", t.of + " does not leave the line through the origin");
+  std::size_t straight = first, last = top;
+  while (slope[straight] < (1.0 - off) * largest) ++straight;
   for (std::size_t i = top; i < end; ++i) {
     if (slope[i] >= (1.0 - off) * largest) last = i;
   }
-  if (slope[end - 1] > (1.0 - left) * largest)
-    return none(t.name, "Pa", t.of + " does not leave the line through the origin");
-  const std::size_t straight = static_cast<std::size_t>(
-      std::find_if(begin, slope.end() - 1, [&](double s) { return s >= (1.0 - off) * largest; }) - slope.begin());
   // without a rise the tangent must be seen as a line, or any decline would have one
   if (!contact.found() && t.x[last] < 1.5 * t.x[straight])
     return none(t.name, "Pa", t.of + " has no straight part through the origin");
@@ -131,8 +135,8 @@ Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
   pick.value = f.pressure[last];
   pick.time = f.shut_in + f.elapsed[last];
   pick.uncertainty = std::hypot(f.point_error(last), 0.5 * (f.pressure[top] - f.pressure[last]));
-  pick.method = fmt::format("last point within a tenth of the tangent from the origin to {}, at {:.4g}; {}", t.of, t.x[last],
-                            window_text(f));
+  pick.method = fmt::format("last point within a tenth of the tangent from the origin to {}, at {:.4g}; {}",
+                            t.of, t.x[last], window_text(f));
   return pick;
 }
 

@@ -24,26 +24,42 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void fill_bins(const PressureRecord& record, const Injection& injection, FallOff& f) {
-  for (std::size_t i = injection.shut_in_sample; i < injection.end_sample;) {
-    const double start = record.time[i] - injection.shut_in;
-    if (start <= 0.0) {  // shut-in itself has no logarithm
-      ++i;
-      continue;
-    }
-    double elapsed = 0.0, pressure = 0.0, count = 0.0;
+/// Means over the samples of a bin, also of what pressure is a line over.
+struct Bin {
+  double count = 0.0, elapsed = 0.0, log = 0.0, g = 0.0, root = 0.0, pressure = 0.0;
+};
+
+void append(const Bin& sum, std::vector<double>& log_elapsed, FallOff& f) {
+  f.count.push_back(sum.count);
+  f.elapsed.push_back(sum.elapsed / sum.count);
+  f.g.push_back(sum.g / sum.count);
+  f.root.push_back(sum.root / sum.count);
+  f.pressure.push_back(sum.pressure / sum.count);
+  log_elapsed.push_back(sum.log / sum.count);
+}
+
+/// @return ln Δt of the bins
+std::vector<double> fill_bins(const PressureRecord& record, const Injection& injection, FallOff& f) {
+  std::vector<double> log_elapsed;
+  std::size_t i = injection.shut_in_sample;
+  while (i < injection.end_sample && record.time[i] <= injection.shut_in) ++i;  // it has no logarithm
+  while (i < injection.end_sample) {
+    // a little less, so that samples 2 % apart are not paired by rounding
+    const double end = (record.time[i] - injection.shut_in) * (1.0 + 0.9 * bin_width);
+    Bin sum;
     for (; i < injection.end_sample; ++i) {
-      const double now = record.time[i] - injection.shut_in;
-      // a little less, so that samples 2 % apart are not paired by rounding
-      if (count > 0.0 && now >= start * (1.0 + 0.9 * bin_width)) break;
-      elapsed += now;
-      pressure += record.pressure[i];
-      count += 1.0;
+      const double elapsed = record.time[i] - injection.shut_in;
+      if (sum.count > 0.0 && elapsed >= end) break;
+      sum.count += 1.0;
+      sum.elapsed += elapsed;
+      sum.log += std::log(elapsed);
+      sum.g += g_function(elapsed, f.pump_time, f.alpha);
+      sum.root += std::sqrt(elapsed);
+      sum.pressure += record.pressure[i];
     }
-    f.elapsed.push_back(elapsed / count);
-    f.pressure.push_back(pressure / count);
-    f.count.push_back(count);
+    append(sum, log_elapsed, f);
   }
+  return log_elapsed;
 }
 
 /// First and one past the last point within half a window on both sides, with at least one neighbour.
@@ -130,19 +146,13 @@ FallOff make_fall_off(const PressureRecord& record, const Injection& injection,
                                v.begin() + static_cast<std::ptrdiff_t>(injection.end_sample));
   };
   f.noise = noise_of(part(record.time), part(record.pressure));
-  fill_bins(record, injection, f);
+  const std::vector<double> log_elapsed = fill_bins(record, injection, f);
   if (f.size() < fewest_bins) {
     throw record_error(
         record, injection.end_sample - 1,
         fmt::format("the fall-off fills {} steps of 2 % in time; {} are the fewest that can be "
                     "analysed: record more often",
                     f.size(), fewest_bins));
-  }
-  std::vector<double> log_elapsed;
-  for (const double elapsed : f.elapsed) {
-    log_elapsed.push_back(std::log(elapsed));
-    f.g.push_back(g_function(elapsed, f.pump_time, f.alpha));
-    f.root.push_back(std::sqrt(elapsed));
   }
   constexpr double enough = 0.05;
   const std::vector<double> windows =

@@ -42,7 +42,8 @@ std::string type_of(double early, double middle, double late) {
   const double a = early / late - 1.0, b = middle / late - 1.0;
   if (std::abs(a) <= same && std::abs(b) <= same) return "normal";
   if (a < 0.0) return "height_recession";
-  return std::abs(b) <= 0.3 * a ? "pressure_dependent" : "tip_extension";
+  // of G dp/dG = a + b G, a line above the origin, middle - late is a fifth of early - late
+  return std::abs(b) <= 0.1 * a ? "pressure_dependent" : "tip_extension";
 }
 
 }  // namespace

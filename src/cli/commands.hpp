@@ -44,6 +44,14 @@ struct CatalogOptions {
   std::string output;  ///< file; empty: the terminal
 };
 
+struct DfitOptions {
+  std::string record;                  ///< a file of a record, or the folder of a run
+  std::string output;                  ///< folder; empty: RUN_DIR/dfit, or <name of the file>_dfit here
+  std::string time, pressure, rate;    ///< columns: "NAME" or "NAME:UNIT"; empty: by their headers
+  std::string inputs;                  ///< a TOML file with the keys of --set
+  std::vector<std::string> overrides;  ///< --set key=value
+};
+
 /// Each command returns the exit code of the program, or throws an Error that carries it.
 int run_command(const RunOptions& options);
 int check_command(const CheckOptions& options);
@@ -52,5 +60,6 @@ int law_command(const LawOptions& options);
 int list_command();
 int describe_command(const std::string& name);
 int catalog_command(const CatalogOptions& options);
+int dfit_analyse_command(const DfitOptions& options);
 
 }  // namespace crackle

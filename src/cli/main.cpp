@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
+#include "crackle/io/dfit.hpp"
 #include "load.hpp"
 
 namespace {
@@ -47,12 +48,14 @@ class CommandLine {
     add_law();
     add_names();
     add_catalog();
+    add_dfit_analyse();
   }
 
   int run(int argc, char** argv) {
     if (argc < 2) {
       throw crackle::CaseError(
-          "say what to do: run, check, mesh, law, list, describe or catalog; see crackle --help");
+          "say what to do: run, check, mesh, law, list, describe, catalog or dfit-analyse; see crackle "
+          "--help");
     }
     try {
       app_.parse(argc, argv);
@@ -134,6 +137,29 @@ class CommandLine {
     command->callback([this] { code_ = crackle::catalog_command(catalog_); });
   }
 
+  void add_dfit_analyse() {
+    auto* command =
+        app_.add_subcommand("dfit-analyse", "Picks of a fall-off: ISIP, closure, leak-off, reservoir");
+    command->add_option("record", dfit_.record, "Record (a table with a header), or a run folder")
+        ->required()
+        ->type_name("FILE|RUN_DIR");
+    command->add_option("-o,--output", dfit_.output, "Folder (default: RUN_DIR/dfit, or <FILE>_dfit)")
+        ->type_name("DIR");
+    command->add_option("--time", dfit_.time, "Column of the time (default: time_<unit>)")
+        ->type_name("COLUMN[:UNIT]");
+    command->add_option("--pressure", dfit_.pressure, "Column of the pressure (default: pressure_<unit>)")
+        ->type_name("COLUMN[:UNIT]");
+    command
+        ->add_option("--rate", dfit_.rate, "Column of the rate (default: rate_<unit>, injection_rate_<unit>)")
+        ->type_name("COLUMN[:UNIT]");
+    command->add_option("--inputs", dfit_.inputs, "TOML file with keys of --set")->type_name("FILE");
+    command->add_option("--set", dfit_.overrides, "What the record does not hold: --set key=value")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    command->footer("Keys of --set and --inputs:\n" + crackle::dfit_keys_text());
+    command->callback([this] { code_ = crackle::dfit_analyse_command(dfit_); });
+  }
+
   void require_command(const std::string& word) const {
     std::vector<std::string> names;
     for (const CLI::App* command : app_.get_subcommands({})) names.push_back(command->get_name());
@@ -151,6 +177,7 @@ class CommandLine {
   crackle::MeshOptions mesh_;
   crackle::LawOptions law_;
   crackle::CatalogOptions catalog_;
+  crackle::DfitOptions dfit_;
   std::string name_;
   int code_ = 0;
 };

@@ -17,12 +17,12 @@ namespace crackle_test {
 ///   afterwards    p = p_res + (p_c - p_res) (s / (Δt - Δt_c + s))^n,  n = 1/2 (linear flow) or 1 (radial)
 /// where s is such that -dp/dG rises `stiffening` times at closure.
 struct CarterTest {
-  double pump_time = 300.0;  // [s]
-  double rate = 0.01;        // [m3/s]
-  double isip = 45.0e6;      // [Pa]
-  double friction = 1.0e6;   // while pumping [Pa]
-  double closure = 44.0e6;   // below all pressures: never [Pa]
-  double reservoir = 35.0e6; // [Pa]
+  double pump_time = 300.0;                             // [s]
+  double rate = 0.01;                                   // [m3/s]
+  double isip = 45.0e6;                                 // [Pa]
+  double friction = 1.0e6;                              // while pumping [Pa]
+  double closure = 44.0e6;                              // below all pressures: never [Pa]
+  double reservoir = 35.0e6;                            // [Pa]
   double young_modulus = 42.5e9, poisson_ratio = 0.17;  // [Pa], [-]
   double half_length = 10.0, height = 20.0;             // [m]
   double leak_off_coefficient = 2e-6;                   // [m/s^0.5]
@@ -31,10 +31,10 @@ struct CarterTest {
   double alpha = 1.0;
   double end = 1e6;  // of the fall-off [s]
 
-  double stiffness() const;     ///< S_f of kgd [Pa/m]
-  double fall_per_g() const;    ///< -dp/dG before closure [Pa]
-  double closure_g() const;     ///< G at closure
-  double closure_elapsed() const;  ///< [s]
+  double stiffness() const;               ///< S_f of kgd [Pa/m]
+  double fall_per_g() const;              ///< -dp/dG before closure [Pa]
+  double closure_g() const;               ///< G at closure
+  double closure_elapsed() const;         ///< [s]
   double pressure(double elapsed) const;  ///< after shut-in [Pa]
   crackle::DfitInputs inputs() const;
 };
