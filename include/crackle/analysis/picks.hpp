@@ -62,10 +62,10 @@ Pick pick_isip(const FallOff& f, const Pick& contact);
 Pick pick_contact(const FallOff& f);
 
 /// Last point where G dp/dG over G is within a tenth of its tangent from the origin (Barree, Barree and Craig
-/// 2009, SPE 107877): -dp/dG is largest on the tangent. Points before the contact, and without one before G = 1
-/// or a quarter of the last G, are not asked. None where -dp/dG ends above 0.8 of its largest value; without
-/// a contact also where it is not within a tenth of it while G grows by half. The window of the derivative
-/// moves this pick later where pressure bends sharply.
+/// 2009, SPE 107877): -dp/dG is largest on the tangent. Points before the contact, and without one before G =
+/// 1 or a quarter of the last G, are not asked. None where -dp/dG ends above 0.8 of its largest value;
+/// without a contact also where it is not within a tenth of it while G grows by half. The window of the
+/// derivative moves this pick later where pressure bends sharply.
 Pick pick_closure_tangent(const FallOff& f, const Pick& contact);
 /// The same on √Δt, with √Δt dp/d√Δt.
 Pick pick_closure_root(const FallOff& f, const Pick& contact);
