@@ -76,13 +76,16 @@ Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh
 }
 
 StableStep stable_step_of(const Scene& scene) {
-  State state = scene.law ? make_split_state(scene.mesh) : make_tied_state(scene.mesh);
+  const bool split = scene.law && !scene.insertion.on_demand;
+  State state = split ? make_split_state(scene.mesh) : make_tied_state(scene.mesh);
   const Bulk bulk(*scene.mesh, scene.stiffness, scene.density, scene.stress, scene.damping);
   set_mass(state, scene.density);
   if (!scene.law) return stable_step(state, bulk, nullptr);
-  insert_all(state);
+  if (split) insert_all(state);
   const Cohesive cohesive(scene.law, scene.cohesive);
-  return stable_step(state, bulk, &cohesive);
+  StableStep stable = stable_step(state, bulk, &cohesive);
+  if (!split) stable.limit *= scene.insertion.step;
+  return stable;
 }
 
 WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const Steps& steps, int threads) {

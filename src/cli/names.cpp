@@ -21,7 +21,8 @@ std::vector<NameGroup> name_groups() {
   groups.push_back(
       {"Insertion policies",
        "cohesive.insertion",
-       {{"all", "every interior edge carries a cohesive element from the start (intrinsic, as Y-Geo)"}}});
+       {{"all", "every interior edge carries a cohesive element from the start (intrinsic, as Y-Geo)"},
+        {"on_demand", "edges get one when they come near their strength, with the traction they bear"}}});
   groups.push_back(
       {"Fluid models",
        "fluid.wets",

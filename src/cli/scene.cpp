@@ -69,6 +69,8 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     const double shape = measure_mesh(*s.mesh).sum_length2_over_area;
     s.triangle_stiffness = compensated(s.stiffness, artificial_compliance(s.cohesive.penalty, shape));
   }
+  s.insertion.on_demand = scene.cohesive.insertion == "on_demand";
+  s.insertion.threshold = scene.cohesive.threshold;
   s.contact = {scene.contact.normal_penalty, scene.contact.tangential_penalty, s.cohesive.tan_residual};
   s.absorbing_boundary = scene.boundary.outer == "absorbing";
   if (scene.wellbore.diameter > 0.0 || !scene.fluid.pump.empty()) {

@@ -14,10 +14,6 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 // An element gets a history a little before it can yield, so that its first damage is booked whole.
 constexpr double early = 0.95;
 
-struct FastMaterial {
-  double penalty, curvature, tensile_strength, cohesion, tan_friction;
-};
-
 inline EndSeparation separate(const Vec2* u, const std::array<Index, 4>& n, Vec2 direction,
                               const std::array<double, 4>& offset) {
   const Vec2 a0 = u[n[0]], a1 = u[n[1]], b0 = u[n[2]], b1 = u[n[3]];
@@ -47,14 +43,14 @@ struct Chunk {
   double ax0[chunk], ay0[chunk], ax1[chunk], ay1[chunk], bx0[chunk], by0[chunk], bx1[chunk], by1[chunk];
   double dx[chunk], dy[chunk], inverse_length[chunk];
   double o0[chunk], s0[chunk], o1[chunk], s1[chunk];
+  double penalty[chunk], tensile_strength[chunk], cohesion[chunk], tan_friction[chunk];
   double fx0[chunk], fy0[chunk], fx1[chunk], fy1[chunk];
   double beyond[chunk];
 };
 
-inline void evaluate_chunk(Chunk& c, FastMaterial m, int count) {
-  const double limit = early * (1.0 + m.curvature);
-  const double quarter = m.curvature / 4.0;
-  const double quarter_tension = quarter / m.tensile_strength;
+inline void evaluate_chunk(Chunk& c, double curvature, int count) {
+  const double limit = early * (1.0 + curvature);
+  const double quarter = curvature / 4.0;
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     const double inverse = c.inverse_length[i];
@@ -69,7 +65,8 @@ inline void evaluate_chunk(Chunk& c, FastMaterial m, int count) {
     const double tx = ex * r, ty = ey * r;
     const double gx0 = c.bx0[i] - c.ax0[i], gy0 = c.by0[i] - c.ay0[i];
     const double gx1 = c.bx1[i] - c.ax1[i], gy1 = c.by1[i] - c.ay1[i];
-    const double k = m.penalty * inverse;
+    const double k = c.penalty[i] * inverse;
+    const double quarter_tension = quarter / c.tensile_strength[i];
     // Elastic tractions at both ends and the middle, as elastic_traction() has them.
     const double tn0 = k * (gx0 * ty - gy0 * tx + c.o0[i]), ts0 = k * (gx0 * tx + gy0 * ty + c.s0[i]);
     const double tn1 = k * (gx1 * ty - gy1 * tx + c.o1[i]), ts1 = k * (gx1 * tx + gy1 * ty + c.s1[i]);
@@ -78,15 +75,15 @@ inline void evaluate_chunk(Chunk& c, FastMaterial m, int count) {
     const double n0 = tn0 - quarter_tension * pull0 * pull0;
     const double n1 = tn1 - quarter_tension * pull1 * pull1;
     const double nm = tnm - quarter_tension * pullm * pullm;
-    const double strength0 = m.cohesion - m.tan_friction * (n0 < 0.0 ? n0 : 0.0);
-    const double strength1 = m.cohesion - m.tan_friction * (n1 < 0.0 ? n1 : 0.0);
-    const double strengthm = m.cohesion - m.tan_friction * (nm < 0.0 ? nm : 0.0);
+    const double strength0 = c.cohesion[i] - c.tan_friction[i] * (n0 < 0.0 ? n0 : 0.0);
+    const double strength1 = c.cohesion[i] - c.tan_friction[i] * (n1 < 0.0 ? n1 : 0.0);
+    const double strengthm = c.cohesion[i] - c.tan_friction[i] * (nm < 0.0 ? nm : 0.0);
     const double push0 = std::abs(ts0), push1 = std::abs(ts1);
     const double s0 = ts0 - quarter * ts0 * push0 / strength0;
     const double s1 = ts1 - quarter * ts1 * push1 / strength1;
     const double sm = tsm - quarter * tsm * std::abs(tsm) / strengthm;
     // Near its strength already? The middle lies between the ends.
-    const double near_tension = (pull0 > pull1 ? pull0 : pull1) - limit * m.tensile_strength;
+    const double near_tension = (pull0 > pull1 ? pull0 : pull1) - limit * c.tensile_strength[i];
     const double near0 = push0 - limit * strength0, near1 = push1 - limit * strength1;
     const double near_shear = near0 > near1 ? near0 : near1;
     c.beyond[i] = near_tension > near_shear ? near_tension : near_shear;
@@ -102,7 +99,8 @@ inline void evaluate_chunk(Chunk& c, FastMaterial m, int count) {
 
 CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* nodes, const Vec2* direction,
                                      const double* inverse_length, const std::array<double, 4>* offset,
-                                     FastMaterial m, Index begin, Index end, EndForces* force,
+                                     const std::uint16_t* material, const CohesiveMaterial* materials,
+                                     double curvature, Index begin, Index end, EndForces* force,
                                      std::uint8_t* beyond) {
   Chunk c;
   for (Index first = begin; first < end; first += chunk) {
@@ -116,8 +114,11 @@ CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* 
       c.inverse_length[i] = inverse_length[first + i];
       const std::array<double, 4>& o = offset[first + i];
       c.o0[i] = o[0], c.s0[i] = o[1], c.o1[i] = o[2], c.s1[i] = o[3];
+      const CohesiveMaterial& m = materials[material[first + i]];
+      c.penalty[i] = m.penalty, c.tensile_strength[i] = m.tensile_strength;
+      c.cohesion[i] = m.cohesion, c.tan_friction[i] = m.tan_friction;
     }
-    evaluate_chunk(c, m, count);
+    evaluate_chunk(c, curvature, count);
     for (int i = 0; i < count; ++i) {
       force[first + i] = {{c.fx0[i], c.fy0[i]}, {c.fx1[i], c.fy1[i]}};
       beyond[first + i] = c.beyond[i] > 0.0;
@@ -137,8 +138,32 @@ double kinetic_energy(const State& state, const std::array<Index, 4>& nodes) {
 
 }  // namespace
 
-Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, const CohesiveMaterial& material)
-    : law_(std::move(law)), material_(material) {}
+Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, std::vector<CohesiveMaterial> materials)
+    : law_(std::move(law)), materials_(std::move(materials)) {}
+
+CohesiveMaterial Cohesive::material(const State& state, Index element) const {
+  const CohesiveElements& c = state.cohesive;
+  CohesiveMaterial m = materials_[c.material[at(element)]];
+  if (c.history_of[at(element)] < 0) return m;
+  const CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
+  if (h.penalty > 0.0) {
+    m.penalty = h.penalty;
+    m.tangential_penalty = std::min(m.tangential_penalty, h.penalty);
+  }
+  if (m.calibration == Calibration::exact) {
+    m.fracture_energy_mode1 += h.inserted_mode1;
+    m.fracture_energy_mode2 += h.inserted_mode2;
+  }
+  return m;
+}
+
+double Cohesive::utilisation(const CohesiveMaterial& m, Sym2 stress, Vec2 along) {
+  const Vec2 traction = stress * right_normal(along);
+  const double normal = dot(traction, right_normal(along));
+  const double pull = std::max(normal, 0.0) / m.tensile_strength;
+  const double push = dot(traction, along) / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
+  return std::sqrt(pull * pull + push * push);
+}
 
 EndSeparation Cohesive::separation(const State& state, Index element) const {
   const CohesiveElements& c = state.cohesive;
@@ -162,6 +187,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     return;
   }
   const double length = norm(c.direction[i]);
+  const CohesiveMaterial material = this->material(state, h.element);
   const EndSeparation w = separation(state, h.element);
   const std::array<double, 3> opening{w.opening0, w.opening1, 0.5 * (w.opening0 + w.opening1)};
   const std::array<double, 3> slip{w.slip0, w.slip1, 0.5 * (w.slip0 + w.slip1)};
@@ -171,7 +197,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   int failed = 0;
   bool yielding = false;
   for (std::size_t q = 0; q < 3; ++q) {
-    law_->move(material_, length, opening[q], slip[q], h.point[q]);
+    law_->move(material, length, opening[q], slip[q], h.point[q]);
     yielding = yielding || h.point[q].damage > 0.0;
     failed += h.point[q].damage >= 1.0;
   }
@@ -179,7 +205,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     // The third point gives up at once what it still bears.
     for (std::size_t q = 0; q < 3; ++q) {
       h.point[q].damage = 1.0;
-      law_->move(material_, length, opening[q], slip[q], h.point[q]);
+      law_->move(material, length, opening[q], slip[q], h.point[q]);
     }
     c.status[i] = CohesiveStatus::broken;
     h.break_time = state.time;
@@ -193,7 +219,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     const double normal_work = 0.5 * (p.normal + old[q].normal) * (p.opening - old[q].opening);
     const double shear_work = 0.5 * (p.shear + old[q].shear) * d_slip;
     const double friction_work = 0.5 * (p.friction + old[q].friction) * d_slip;
-    const double dissipated = normal_work + shear_work + friction_work - (p.stored - old[q].stored);
+    const double dissipated = normal_work + shear_work + friction_work - (p.recoverable() - old[q].recoverable());
     const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
     const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
     // Never negative: what a step would gain is left to the ledger's residual, where it shows.
@@ -222,42 +248,69 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
                           p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
 }
 
+void Cohesive::start_history(State& state, Index element) const {
+  CohesiveElements& c = state.cohesive;
+  CohesiveHistory h;
+  h.element = element;
+  // Where it stood at the end of the last step it was elastic still: move() there is now.
+  const EndSeparation w = separation(state, element);
+  const double length = norm(c.direction[at(element)]);
+  const CohesiveMaterial material = this->material(state, element);
+  for (std::size_t q = 0; q < 3; ++q) {
+    const double o = q == 0 ? w.opening0 : q == 1 ? w.opening1 : 0.5 * (w.opening0 + w.opening1);
+    const double s = q == 0 ? w.slip0 : q == 1 ? w.slip1 : 0.5 * (w.slip0 + w.slip1);
+    law_->move(material, length, o, s, h.point[q]);
+  }
+  c.history_of[at(element)] = static_cast<Index>(c.histories.size());
+  c.status[at(element)] = CohesiveStatus::active;
+  c.histories.push_back(h);
+}
+
+void Cohesive::load_springs(State& state, Index element) const {
+  CohesiveElements& c = state.cohesive;
+  CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
+  const double length = norm(c.direction[at(element)]);
+  const CohesiveMaterial m = material(state, element);
+  const EndSeparation w = separation(state, element);
+  h.inserted_mode1 = h.inserted_mode2 = 0.0;
+  for (std::size_t q = 0; q < 3; ++q) {
+    CohesivePoint& p = h.point[q];
+    const double before = p.stored;
+    law_->move(m, length, q == 0 ? w.opening0 : q == 1 ? w.opening1 : 0.5 * (w.opening0 + w.opening1),
+               q == 0 ? w.slip0 : q == 1 ? w.slip1 : 0.5 * (w.slip0 + w.slip1), p);
+    p.inserted += p.stored - before;
+    const double across = elastic_energy(m.penalty / length, law_->curvature(), m.tensile_strength, m.cohesion,
+                                         m.tan_friction, p.opening, 0.0);
+    const double weight = q == 2 ? 4.0 / 6.0 : 1.0 / 6.0;
+    if (p.opening > 0.0) h.inserted_mode1 += weight * across;
+    h.inserted_mode2 += weight * std::max(0.0, p.stored - across);
+  }
+  const auto& p = h.point;
+  c.force[at(element)] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction,
+                                    p[2].normal, p[2].shear + p[2].friction, p[1].normal,
+                                    p[1].shear + p[1].friction);
+}
+
 void Cohesive::add_tractions(State& state) {
   CohesiveElements& c = state.cohesive;
   newly_broken_.clear();
   changed_ = false;
   if (c.count() == 0) return;
-  beyond_.resize(c.edge.size());
-  const FastMaterial fast{material_.penalty, law_->curvature(), material_.tensile_strength,
-                          material_.cohesion, material_.tan_friction};
-  std::vector<Index> first_beyond(at(block_count(c.count())), 0);
-  for_each_block(c.count(), [&](Index begin, Index end, Index block) {
+  beyond_.resize(at(c.initial));
+  std::vector<Index> first_beyond(at(block_count(c.initial)), 0);
+  for_each_block(c.initial, [&](Index begin, Index end, Index block) {
     elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.inverse_length.data(),
-                     c.offset.data(), fast, begin, end, c.force.data(), beyond_.data());
+                     c.offset.data(), c.material.data(), materials_.data(), law_->curvature(), begin, end,
+                     c.force.data(), beyond_.data());
     Index any = 0;
     for (Index i = begin; i < end; ++i) any += beyond_[at(i)] && c.history_of[at(i)] < 0;
     first_beyond[at(block)] = any;
   });
   // New histories, in element order.
-  for (Index block = 0; block < block_count(c.count()); ++block) {
+  for (Index block = 0; block < block_count(c.initial); ++block) {
     if (first_beyond[at(block)] == 0) continue;
-    for (Index i = block * block_size; i < std::min(c.count(), (block + 1) * block_size); ++i) {
-      if (!beyond_[at(i)] || c.history_of[at(i)] >= 0) continue;
-      CohesiveHistory h;
-      h.element = i;
-      // Where it stood at the end of the last step it was elastic still: move() there is now.
-      const EndSeparation w = separation(state, i);
-      const double length = norm(c.direction[at(i)]);
-      CohesivePoint elastic;
-      for (std::size_t q = 0; q < 3; ++q) {
-        const double o = q == 0 ? w.opening0 : q == 1 ? w.opening1 : 0.5 * (w.opening0 + w.opening1);
-        const double s = q == 0 ? w.slip0 : q == 1 ? w.slip1 : 0.5 * (w.slip0 + w.slip1);
-        h.point[q] = elastic;
-        law_->move(material_, length, o, s, h.point[q]);
-      }
-      c.history_of[at(i)] = static_cast<Index>(c.histories.size());
-      c.status[at(i)] = CohesiveStatus::active;
-      c.histories.push_back(h);
+    for (Index i = block * block_size; i < std::min(c.initial, (block + 1) * block_size); ++i) {
+      if (beyond_[at(i)] && c.history_of[at(i)] < 0) start_history(state, i);
     }
   }
   // Elements with a history, one by one.
@@ -283,18 +336,19 @@ void Cohesive::add_tractions(State& state) {
 
 void Cohesive::cut(State& state, Index element) const {
   CohesiveElements& c = state.cohesive;
-  CohesiveHistory h;
+  if (c.history_of[at(element)] < 0) {
+    c.history_of[at(element)] = static_cast<Index>(c.histories.size());
+    c.histories.emplace_back();
+  }
+  CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
   h.element = element;
   h.break_time = state.time;
   for (CohesivePoint& p : h.point) p.damage = 1.0;
-  c.history_of[at(element)] = static_cast<Index>(c.histories.size());
   c.status[at(element)] = CohesiveStatus::broken;
-  c.histories.push_back(h);
 }
 
 double Cohesive::stored_energy(const State& state) const {
   const CohesiveElements& c = state.cohesive;
-  const CohesiveMaterial& m = material_;
   const double curvature = law_->curvature();
   return sum_over_blocks(c.count(), [&](Index begin, Index end) {
     double sum = 0.0;
@@ -302,9 +356,10 @@ double Cohesive::stored_energy(const State& state) const {
       const double length = norm(c.direction[at(i)]);
       if (c.history_of[at(i)] >= 0) {
         const auto& p = c.histories[at(c.history_of[at(i)])].point;
-        sum += length / 6.0 * (p[0].stored + p[1].stored + 4.0 * p[2].stored);
+        sum += length / 6.0 * (p[0].recoverable() + p[1].recoverable() + 4.0 * p[2].recoverable());
         continue;
       }
+      const CohesiveMaterial& m = materials_[c.material[at(i)]];
       const EndSeparation w = separation(state, i);
       const auto energy = [&](double opening, double slip) {
         return elastic_energy(m.penalty / length, curvature, m.tensile_strength, m.cohesion, m.tan_friction,

@@ -41,13 +41,10 @@ bool falls_apart(const Mesh& mesh) {
 
 // The broken element on a side; -1 if the side is tied or on a boundary.
 Index broken_element(const State& state, Index corner) {
-  const Index element = state.element_on_side[at(corner)] / 2;
-  const CohesiveElements& c = state.cohesive;
-  if (element >= c.count() ||
-      c.edge[at(element)] != state.mesh->triangle_edges[at(corner / 3)][at(corner % 3)]) {
-    return -1;
-  }
-  const CohesiveStatus status = c.status[at(element)];
+  const Index code = state.element_on_side[at(corner)];
+  if (code < 0) return -1;
+  const Index element = code / 2;
+  const CohesiveStatus status = state.cohesive.status[at(element)];
   return status == CohesiveStatus::broken || status == CohesiveStatus::released ? element : -1;
 }
 

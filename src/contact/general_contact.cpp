@@ -25,7 +25,7 @@ struct GeneralContact::Search {
   std::vector<PlacedSide> placed;
   Candidates candidates;
   double moved = 0.0;      // bound of the motion against one another since the lists were made [m]
-  std::size_t broken = 0;  // elements broken or released when the sides were looked up
+  Index nodes = 0;         // when the sides were looked up
   bool ready = false;      // the sides have been looked up
   bool any_released = false;
 
@@ -33,7 +33,8 @@ struct GeneralContact::Search {
   bool needed() const { return sides.separate_bodies() || any_released; }
 
   void refresh(const State& state, bool sides_changed) {
-    if (sides_changed || !ready) sides.build(state);
+    if (sides_changed || !ready || nodes != state.node_count()) sides.build(state);
+    nodes = state.node_count();
     sides.place(state, placed);
     double fastest2 = 0.0;
     for (Index s = 0; s < sides.count(); ++s) {

@@ -44,8 +44,6 @@ Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump)
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     for (const Index v : mesh.edges[e].vertex) edges_of_vertex_[at(next[at(v)]++)] = static_cast<Index>(e);
   }
-  element_of_edge_.assign(mesh.edges.size(), -1);
-  for (Index i = 0; i < state.cohesive.count(); ++i) element_of_edge_[at(state.cohesive.edge[at(i)])] = i;
   rebuild(state);
 }
 
@@ -154,7 +152,7 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
       if (other < 0) {  // fresh vertex: on into broken elements that wait there
         for (Index k = edges_of_vertex_first_[at(w)]; k < edges_of_vertex_first_[at(w) + 1]; ++k) {
           const Index next = edges_of_vertex_[at(k)];
-          const Index element = element_of_edge_[at(next)];
+          const Index element = state.cohesive.of_edge[at(next)];
           if (f.cavity_of_edge[at(next)] < 0 && element >= 0 &&
               state.cohesive.status[at(element)] >= CohesiveStatus::broken) {
             reached.push_back(next);
@@ -255,16 +253,23 @@ double Fluid::wetted_length(const State& state) const {
   return sum;
 }
 
-void Fluid::add_corner_forces(const State& state, std::span<Vec2> forces) const {
+std::vector<Fluid::CornerLoad> Fluid::corner_loads(const State& state) const {
+  std::vector<CornerLoad> loads;
   for (const Loop& loop : loops_) {
     const double p = state.fluid.cavities[at(loop.cavity)].pressure;
     const auto& c = loop.corners;
     for (std::size_t k = 0; k < c.size(); ++k) {
       const Vec2 before = state.position(c[k > 0 ? k - 1 : c.size() - 1]);
       const Vec2 after = state.position(c[k + 1 < c.size() ? k + 1 : 0]);
-      forces[at(c[k])] += Vec2{0.5 * p * (before.y - after.y), 0.5 * p * (after.x - before.x)};
+      loads.push_back({c[k], {0.5 * p * (before.y - after.y), 0.5 * p * (after.x - before.x)}});
     }
   }
+  std::stable_sort(loads.begin(), loads.end(), [](const auto& a, const auto& b) { return a.corner < b.corner; });
+  return loads;
+}
+
+void Fluid::add_corner_forces(const State& state, std::span<Vec2> forces) const {
+  for (const CornerLoad& load : corner_loads(state)) forces[at(load.corner)] += load.force;
 }
 
 }  // namespace crackle

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "crackle/solid/bulk.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "crackle/core/parallel.hpp"
 
 namespace crackle {
+
+struct TriangleRun {
+  const Index* nodes;
+  const Vec2* u;
+  const Vec2* v;
+  const std::array<double, 4>* inverse_shape;
+  const double* area;
+  const Sym2* in_situ;
+  const double* viscosity;
+  Sym2* strain_rate;
+  Index count;
+};
+
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -26,14 +40,17 @@ inline Sym2 green_strain(const Gradient& h) {
           0.5 * (h.xy + h.yx + h.xx * h.xy + h.yx * h.yy)};
 }
 
-// Corner forces of one run of triangles; the viscous part is compiled out where there is none.
-template <bool viscous>
-inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u, const Vec2* __restrict v,
+// Corner forces of one run of triangles; the viscous part and the screen are compiled out where there
+// is none.
+template <bool viscous, bool screened>
+[[gnu::always_inline]] inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u, const Vec2* __restrict v,
                         const std::array<double, 4>* __restrict inverse_shape, const double* __restrict area,
                         const Sym2* __restrict in_situ, const double* __restrict viscosity,
                         Sym2* __restrict strain_rate, const PlaneStiffness& c, Index count,
-                        Vec2* __restrict forces) {
+                        Vec2* __restrict forces, const StressScreen& screen,
+                        std::uint8_t* __restrict stressed) {
   double power = 0.0;
+  const double secant = std::sqrt(1.0 + screen.tan_friction * screen.tan_friction);
 #pragma omp simd reduction(+ : power)
   for (Index t = 0; t < count; ++t) {
     const Index n0 = nodes[3 * t], n1 = nodes[3 * t + 1], n2 = nodes[3 * t + 2];
@@ -41,6 +58,14 @@ inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u,
     const Gradient h = gradient(b, u[n0], u[n1], u[n2]);
     const Sym2 e = green_strain(h);
     Sym2 s = c.stress(e) + in_situ[t];
+    if constexpr (screened) {
+      // Mohr's circle; at these strains the second Piola-Kirchhoff stress is the stress.
+      const double mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
+      const double radius = std::sqrt(half * half + s.xy * s.xy);
+      const bool pulled = mean + radius > screen.tension;
+      const bool sheared = radius * secant + mean * screen.tan_friction > screen.shear;
+      stressed[t] = static_cast<std::uint8_t>(pulled | sheared);
+    }
     const double fxx = 1.0 + h.xx, fyy = 1.0 + h.yy;
     if constexpr (viscous) {
       const Gradient g = gradient(b, v[n0], v[n1], v[n2]);
@@ -64,19 +89,26 @@ inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u,
   return power;
 }
 
-CRACKLE_KERNEL double elastic_forces(const Index* nodes, const Vec2* u,
-                                     const std::array<double, 4>* inverse_shape, const double* area,
-                                     const Sym2* in_situ, const PlaneStiffness& c, Index count,
-                                     Vec2* forces) {
-  return forces_of<false>(nodes, u, nullptr, inverse_shape, area, in_situ, nullptr, nullptr, c, count,
-                          forces);
+template <bool viscous, bool screened>
+[[gnu::always_inline]] inline double forces_of(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces, const StressScreen& screen,
+                        std::uint8_t* stressed) {
+  return forces_of<viscous, screened>(r.nodes, r.u, r.v, r.inverse_shape, r.area, r.in_situ, r.viscosity,
+                                      r.strain_rate, c, r.count, forces, screen, stressed);
 }
 
-CRACKLE_KERNEL double viscous_forces(const Index* nodes, const Vec2* u, const Vec2* v,
-                                     const std::array<double, 4>* inverse_shape, const double* area,
-                                     const Sym2* in_situ, const double* viscosity, Sym2* strain_rate,
-                                     const PlaneStiffness& c, Index count, Vec2* forces) {
-  return forces_of<true>(nodes, u, v, inverse_shape, area, in_situ, viscosity, strain_rate, c, count, forces);
+CRACKLE_KERNEL double elastic_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
+  return forces_of<false, false>(r, c, forces, {}, nullptr);
+}
+CRACKLE_KERNEL double viscous_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
+  return forces_of<true, false>(r, c, forces, {}, nullptr);
+}
+CRACKLE_KERNEL double screened_elastic_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces,
+                                              const StressScreen& screen, std::uint8_t* stressed) {
+  return forces_of<false, true>(r, c, forces, screen, stressed);
+}
+CRACKLE_KERNEL double screened_viscous_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces,
+                                              const StressScreen& screen, std::uint8_t* stressed) {
+  return forces_of<true, true>(r, c, forces, screen, stressed);
 }
 
 }  // namespace
@@ -109,17 +141,58 @@ Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sy
   }
 }
 
-double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) const {
+TriangleRun Bulk::run_of(State& state, Index begin, Index end) const {
   const std::size_t b = at(begin);
-  const Index* nodes = state.node_of_corner.data() + 3 * b;
-  const Vec2* u = state.displacement.data();
-  if (!viscous_) {
-    return elastic_forces(nodes, u, inverse_shape_.data() + b, area_.data() + b, in_situ_.data() + b,
-                          stiffness_, end - begin, forces);
+  return {state.node_of_corner.data() + 3 * b,
+          state.displacement.data(),
+          state.velocity.data(),
+          inverse_shape_.data() + b,
+          area_.data() + b,
+          in_situ_.data() + b,
+          viscous_ ? viscosity_.data() + b : nullptr,
+          viscous_ ? state.strain_rate.data() + b : nullptr,
+          end - begin};
+}
+
+double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) const {
+  const TriangleRun run = run_of(state, begin, end);
+  return viscous_ ? viscous_forces(run, stiffness_, forces) : elastic_forces(run, stiffness_, forces);
+}
+
+double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces, const StressScreen& screen,
+                           std::uint8_t* stressed) const {
+  const TriangleRun run = run_of(state, begin, end);
+  return viscous_ ? screened_viscous_forces(run, stiffness_, forces, screen, stressed)
+                  : screened_elastic_forces(run, stiffness_, forces, screen, stressed);
+}
+
+std::array<Vec2, 3> Bulk::triangle_forces(const State& state, Index t) const {
+  std::array<Vec2, 3> forces;
+  Sym2 rate = viscous_ ? state.strain_rate[at(t)] : Sym2{};
+  TriangleRun run = run_of(const_cast<State&>(state), t, t + 1);
+  run.strain_rate = &rate;
+  if (viscous_) {
+    viscous_forces(run, stiffness_, forces.data());
+  } else {
+    elastic_forces(run, stiffness_, forces.data());
   }
-  return viscous_forces(nodes, u, state.velocity.data(), inverse_shape_.data() + b, area_.data() + b,
-                        in_situ_.data() + b, viscosity_.data() + b, state.strain_rate.data() + b, stiffness_,
-                        end - begin, forces);
+  return forces;
+}
+
+std::array<double, 3> Bulk::rows(Index t, const PlaneStiffness& c) const {
+  const auto g = shape_gradients(t);
+  std::array<double, 3> rows{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      // Columns of A g_i · C[sym(e ⊗ g_j)], and the larger singular value of the two by two block.
+      const Vec2 x = c.stress({g[j].x, 0.0, 0.5 * g[j].y}) * g[i];
+      const Vec2 y = c.stress({0.0, g[j].y, 0.5 * g[j].x}) * g[i];
+      const double sum = dot(x, x) + dot(y, y), product = cross(x, y);
+      rows[i] += area_[at(t)] *
+                 std::sqrt(0.5 * (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * product * product))));
+    }
+  }
+  return rows;
 }
 
 double Bulk::strain_energy(const State& state) const {

@@ -21,6 +21,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 inline void add_element_forces(const Index* element_on_side, const EndForces* force, Vec2* corner) {
   for (int i = 0; i < 3; ++i) {
     const Index code = element_on_side[i];
+    if (code < 0) continue;
     const EndForces& f = force[code >> 1];
     const bool b = code & 1;
     const double sign = b ? -1.0 : 1.0;
@@ -86,7 +87,8 @@ Simulation::Simulation(Scene scene)
             scene_.damping) {
   // First, while there is little else in memory: the factorisation is the largest thing of all.
   const std::vector<Vec2> displacement = geostatic_displacement(scene_, bulk_);
-  state_ = scene_.law ? make_split_state(scene_.mesh) : make_tied_state(scene_.mesh);
+  const bool split = scene_.law && !scene_.insertion.on_demand;
+  state_ = split ? make_split_state(scene_.mesh) : make_tied_state(scene_.mesh);
   for (std::size_t c = 0; c < state_.node_of_corner.size(); ++c) {
     state_.displacement[at(state_.node_of_corner[c])] =
         displacement[at(scene_.mesh->triangles[c / 3][c % 3])];
@@ -94,21 +96,25 @@ Simulation::Simulation(Scene scene)
   set_mass(state_, scene_.density);
   if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
   if (scene_.law) {
-    insert_all(state_);
     cohesive_.emplace(scene_.law, scene_.cohesive);
-    std::vector<char> cut(scene_.mesh->edges.size(), 0);
-    for (const Index e : scene_.cracks) cut[at(e)] = 1;
-    for (Index i = 0; i < state_.cohesive.count(); ++i) {
-      if (cut[at(state_.cohesive.edge[at(i)])]) cohesive_->cut(state_, i);
+    if (split) {
+      insert_all(state_);
+      cut_cracks();
     }
   }
+  block_has_elements_.assign(at(block_count(scene_.mesh->triangle_count())), split);
   if (scene_.contact.normal_penalty > 0.0) contact_.emplace(state_, scene_.contact);
-  if (!scene_.law) corner_force_.resize(state_.node_of_corner.size());
+  if (!split) corner_force_.resize(state_.node_of_corner.size());
   if (scene_.fluid) {
     fluid_.emplace(state_, *scene_.fluid, scene_.pump);
     fluid_->fill(state_, wetted_edges(scene_), scene_.initial_pressure);
   }
   if (!scene_.absorbing_boundary) fix_nodes(state_, EdgeKind::outer);
+  stable_ = stable_step(state_, bulk_, cohesive());
+  if (!split && scene_.law) {
+    stable_.limit *= scene_.insertion.step;
+    prepare_insertion();
+  }
   settle();
 }
 
@@ -123,7 +129,9 @@ void Simulation::settle() {
   if (cohesive_) {
     const std::vector<double> mobility = state_.inverse_mass;
     fix_nodes(state_, EdgeKind::outer);  // the boundary bears what is left there, be it fixed or absorbing
-    geostatic_slips_ = static_cast<Index>(cohesive_->balance(state_, forces).size());
+    if (!scene_.insertion.on_demand) {
+      geostatic_slips_ = static_cast<Index>(cohesive_->balance(state_, forces).size());
+    }
     state_.inverse_mass = mobility;
     cohesive_->add_tractions(state_);
   }
@@ -141,7 +149,6 @@ void Simulation::settle() {
     }
     boundary_.emplace(state_, scene_.stiffness, scene_.density, forces);
   }
-  stable_ = stable_step(state_, bulk_, cohesive());
   if (geostatic_slips_ > 0 || !scene_.cracks.empty()) relax();
   state_.dissipation = {};
   // The residual is not measured against less energy than strains of 3e-7 everywhere hold: while the
@@ -188,10 +195,86 @@ void Simulation::relax() {
                   most, geostatic_slips_));
 }
 
+void Simulation::prepare_insertion() {
+  const CohesiveMaterial& m = scene_.cohesive;
+  // A utilisation of the threshold in opening and slip together is at least its √½ in one of them.
+  const double share = std::sqrt(0.5) * scene_.insertion.threshold;
+  screen_ = {share * m.tensile_strength, share * m.cohesion, share * m.tan_friction};
+  stressed_.assign(scene_.mesh->triangles.size(), 0);
+  block_stressed_.assign(block_has_elements_.size(), 0);
+  std::vector<Index> cracks = scene_.cracks;
+  std::sort(cracks.begin(), cracks.end());
+  insert(cracks);
+  cut_cracks();
+}
+
+void Simulation::cut_cracks() {
+  for (const Index e : scene_.cracks) cohesive_->cut(state_, state_.cohesive.of_edge[at(e)]);
+}
+
+void Simulation::insert_stressed() {
+  const Mesh& mesh = *scene_.mesh;
+  std::vector<std::vector<Index>> found(block_stressed_.size());
+  for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index block) {
+    if (!block_stressed_[at(block)]) return;
+    for (Index t = begin; t < end; ++t) {
+      if (!stressed_[at(t)]) continue;
+      for (const Index e : mesh.triangle_edges[at(t)]) {
+        const Edge& edge = mesh.edges[at(e)];
+        if (edge.kind != EdgeKind::interior || state_.cohesive.of_edge[at(e)] >= 0) continue;
+        const Index other = edge.triangle[edge.triangle[0] == t ? 1 : 0];
+        if (other < t && stressed_[at(other)]) continue;  // looked at from there
+        const Sym2 stress = 0.5 * (bulk_.stress(state_, t) + bulk_.stress(state_, other));
+        const Vec2 side = mesh.vertices[at(edge.vertex[1])] - mesh.vertices[at(edge.vertex[0])];
+        if (Cohesive::utilisation(scene_.cohesive, stress, (1.0 / norm(side)) * side) >=
+            scene_.insertion.threshold) {
+          found[at(block)].push_back(e);
+        }
+      }
+    }
+  });
+  std::vector<Index> edges;
+  for (const auto& part : found) edges.insert(edges.end(), part.begin(), part.end());
+  std::sort(edges.begin(), edges.end());
+  insert(edges);
+}
+
+void Simulation::insert(const std::vector<Index>& edges) {
+  if (edges.empty()) return;
+  const double floor = 0.1 * scene_.stiffness.c66;
+  std::vector<double> penalty;
+  for (const Index e : edges) {
+    // Where a sliver leaves no room the step gives way instead.
+    penalty.push_back(std::min(scene_.cohesive.penalty,
+                               std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
+    for (const Index t : scene_.mesh->edges[at(e)].triangle) block_has_elements_[at(t / block_size)] = 1;
+  }
+  const Index nodes = state_.node_count();
+  const Index first = state_.cohesive.count();
+  std::vector<Fluid::CornerLoad> loads;
+  if (fluid_) loads = fluid_->corner_loads(state_);
+  const auto rock = [&](Index corner) { return bulk_.triangle_forces(state_, corner / 3)[at(corner % 3)]; };
+  const auto load = [&](Index corner) {
+    Vec2 sum;
+    auto it = std::lower_bound(loads.begin(), loads.end(), corner,
+                               [](const auto& l, Index value) { return l.corner < value; });
+    for (; it != loads.end() && it->corner == corner; ++it) sum += it->force;
+    return sum;
+  };
+  rough_insertions_ += static_cast<Index>(cohesive_->insert(state_, edges, penalty, 0, rock, load).size());
+  if (state_.node_count() == nodes) return;
+  if (fluid_) fluid_->rebuild(state_);
+  for (Index i = first; i < state_.cohesive.count(); ++i) {
+    for (const Index n : state_.cohesive.nodes[at(i)]) {
+      slowed_ = std::min(slowed_, node_step(state_, bulk_, cohesive(), n) / stable_.limit);
+    }
+  }
+}
+
 double Simulation::stable_limit() const {
   const double contact = contact_ ? contact_->largest_frequency_squared(state_) : 0.0;
-  if (contact == 0.0) return stable_.limit;
-  const double alone = 2.0 / stable_.limit;
+  if (contact == 0.0) return slowed_ * stable_.limit;
+  const double alone = 2.0 / (slowed_ * stable_.limit);
   return 2.0 / std::sqrt(alone * alone + contact);
 }
 
@@ -207,10 +290,18 @@ void Simulation::move_nodes(double dt) {
   const bool own_nodes = corner_force_.empty();
   for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index block) {
     Vec2 forces[3 * block_size];
-    power[at(block)] = bulk_.corner_forces(state_, begin, end, forces);
-    for (Index t = begin; t < end; ++t) {
-      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
-                         forces + 3 * (t - begin));
+    if (stressed_.empty()) {
+      power[at(block)] = bulk_.corner_forces(state_, begin, end, forces);
+    } else {
+      std::uint8_t* stressed = stressed_.data() + begin;
+      power[at(block)] = bulk_.corner_forces(state_, begin, end, forces, screen_, stressed);
+      block_stressed_[at(block)] = std::any_of(stressed, stressed + (end - begin), [](auto s) { return s != 0; });
+    }
+    if (block_has_elements_[at(block)]) {
+      for (Index t = begin; t < end; ++t) {
+        add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
+                           forces + 3 * (t - begin));
+      }
     }
     if (own_nodes) {
       move(state_.displacement.data() + 3 * begin, state_.velocity.data() + 3 * begin,
@@ -241,6 +332,7 @@ void Simulation::advance(double dt, Energies* account) {
   new_events_.clear();
   if (cohesive_) {
     cohesive_->add_tractions(state_);
+    if (!stressed_.empty()) insert_stressed();
     stopwatch_.lap(Stopwatch::cohesive);
   }
   if (contact_) {

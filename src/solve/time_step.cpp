@@ -14,12 +14,45 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+double node_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node) {
+  const Mesh& mesh = *state.mesh;
+  double stiffness = 0.0, viscosity = 0.0, mass = 0.0;
+  for (Index k = 0; k < state.node_size[at(node)]; ++k) {
+    const Index corner = state.node_corners[at(state.node_first[at(node)] + k)];
+    stiffness += bulk.stiffness_rows(corner / 3)[at(corner % 3)];
+    if (bulk.viscous()) viscosity += bulk.viscosity_rows(corner / 3)[at(corner % 3)];
+    mass += bulk.density() * bulk.area(corner / 3) / 3.0;
+    if (cohesive == nullptr) continue;
+    for (const Index side : {corner % 3, (corner + 2) % 3}) {
+      const Index element = state.cohesive.of_edge[at(mesh.triangle_edges[at(corner / 3)][at(side)])];
+      if (element < 0) continue;
+      const CohesiveMaterial material = cohesive->material(state, element);
+      stiffness += std::max(material.penalty, material.tangential_penalty);
+    }
+  }
+  return 2.0 * (std::sqrt(0.25 * viscosity * viscosity + mass * stiffness) - 0.5 * viscosity) / stiffness;
+}
+
+double penalty_below(const State& state, const Bulk& bulk, Index e, double step) {
+  const Edge& edge = state.mesh->edges[at(e)];
+  double penalty = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < 2; ++f) {
+    const Index t = edge.triangle[f];
+    const double mass = bulk.density() * bulk.area(t) / 3.0;
+    const auto stiffness = bulk.stiffness_rows(t), viscosity = bulk.viscosity_rows(t);
+    for (const Index i : {Index{edge.side[f]}, (Index{edge.side[f]} + 1) % 3}) {
+      penalty = std::min(penalty, 0.5 * (4.0 * mass / (step * step) - 2.0 * viscosity[at(i)] / step -
+                                         stiffness[at(i)]));
+    }
+  }
+  return penalty;
+}
+
 StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* cohesive) {
   const Mesh& mesh = *state.mesh;
   StableStep result;
   result.limit = std::numeric_limits<double>::infinity();
   const double modulus = 0.5 * bulk.stiffness().largest();  // λ + μ
-  const Index none = 2 * state.cohesive.count();
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     const double area = bulk.area(t);
     const double mass = bulk.density() * area / 3.0;
@@ -29,10 +62,11 @@ StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* coh
       const Vec2 side = state.reference(3 * t + (i + 1) % 3) - state.reference(3 * t + i);
       sum += dot(side, side);
       const Index code = state.element_on_side[at(3 * t + i)];
-      if (cohesive == nullptr || code >= none) continue;
+      if (cohesive == nullptr || code < 0) continue;
       const Edge& edge = mesh.edges[at(state.cohesive.edge[at(code / 2)])];
       const double other = bulk.density() * bulk.area(edge.triangle[code % 2 == 0 ? 1 : 0]) / 3.0;
-      const double penalty = std::max(cohesive->material().penalty, cohesive->material().tangential_penalty);
+      const CohesiveMaterial material = cohesive->material(state, code / 2);
+      const double penalty = std::max(material.penalty, material.tangential_penalty);
       joints = std::max(joints, 0.5 * penalty * (1.0 / mass + 1.0 / other));
     }
     const double shape =
@@ -43,7 +77,20 @@ StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* coh
     const double limit = 2.0 / omega * (std::sqrt(1.0 + xi * xi) - xi);
     if (limit < result.limit) result = {limit, t, 2.0 / omega, 2.0 / std::sqrt(rock)};
   }
-  return result;
+  if (state.node_count() == 3 * mesh.triangle_count()) return result;
+  StableStep by_node = result;
+  by_node.limit = std::numeric_limits<double>::infinity();
+  for (Index n = 0; n < state.node_count(); ++n) {
+    if (state.node_size[at(n)] == 0) continue;
+    const double limit = node_step(state, bulk, cohesive, n);
+    if (limit < by_node.limit) {
+      by_node.limit = limit;
+      by_node.triangle = state.node_corners[at(state.node_first[at(n)])] / 3;
+    }
+  }
+  by_node.without_viscosity = std::max(by_node.without_viscosity, by_node.limit);
+  by_node.without_elements = std::max(by_node.without_elements, by_node.limit);
+  return by_node.limit > result.limit ? by_node : result;
 }
 
 std::string StableStep::explain(const Mesh& mesh) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "crackle/state/state.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace crackle {
@@ -25,6 +26,122 @@ void group_corners(State& state, Index nodes) {
   state.inverse_mass.assign(at(nodes), 0.0);
 }
 
+// Corners of faces a and b at an edge's ends: a0, a1, b0, b1.
+std::array<Index, 4> corners_of_edge(const Edge& edge) {
+  const Index a = 3 * edge.triangle[0], b = 3 * edge.triangle[1];
+  return {a + edge.side[0], a + (edge.side[0] + 1) % 3, b + (edge.side[1] + 1) % 3, b + edge.side[1]};
+}
+
+void look_up_nodes(State& state, Index element) {
+  const auto corners = corners_of_edge(state.mesh->edges[at(state.cohesive.edge[at(element)])]);
+  for (std::size_t k = 0; k < 4; ++k) {
+    state.cohesive.nodes[at(element)][k] = state.node_of_corner[at(corners[k])];
+  }
+}
+
+void append_element(State& state, Index e, std::uint16_t material) {
+  CohesiveElements& elements = state.cohesive;
+  const auto corner = corners_of_edge(state.mesh->edges[at(e)]);
+  const Index element = elements.count();
+  elements.edge.push_back(e);
+  elements.nodes.emplace_back();
+  look_up_nodes(state, element);
+  elements.direction.push_back(state.reference(corner[1]) - state.reference(corner[0]));
+  elements.inverse_length.push_back(1.0 / norm(elements.direction.back()));
+  elements.offset.push_back({});
+  elements.material.push_back(material);
+  elements.force.push_back({});
+  elements.status.push_back(CohesiveStatus::intact);
+  elements.history_of.push_back(-1);
+  elements.of_edge[at(e)] = element;
+  state.element_on_side[at(corner[0])] = 2 * element;
+  state.element_on_side[at(corner[3])] = 2 * element + 1;
+}
+
+// Reference area of the triangles that a run of corners belongs to: their shares of a node's mass.
+double area_round(const State& state, const Index* corners, Index count) {
+  double sum = 0.0;
+  for (Index k = 0; k < count; ++k) {
+    const Index c = 3 * (corners[k] / 3);
+    const Vec2 x0 = state.reference(c);
+    sum += cross(state.reference(c + 1) - x0, state.reference(c + 2) - x0);
+  }
+  return sum;
+}
+
+// True if two corners of a vertex are tied: their triangles share an edge at it without an element.
+bool tied(const State& state, Index corner, Index other) {
+  const Mesh& mesh = *state.mesh;
+  for (const Index side : {corner % 3, (corner + 2) % 3}) {
+    const Index e = mesh.triangle_edges[at(corner / 3)][at(side)];
+    const Edge& edge = mesh.edges[at(e)];
+    if ((edge.triangle[0] == other / 3 || edge.triangle[1] == other / 3) && state.cohesive.of_edge[at(e)] < 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Parts one node into its tied fans. Its corners stay in their segment of node_corners, the fan of the
+// first of them first: that one keeps the node's number.
+void part_node(State& state, Index node, Parting& parting) {
+  Index* corners = state.node_corners.data() + state.node_first[at(node)];
+  const Index count = state.node_size[at(node)];
+  const double area = area_round(state, corners, count);
+  const double inverse_mass = state.inverse_mass[at(node)];
+  parting.nodes.push_back(node);
+  for (Index begin = 0; begin < count;) {
+    Index end = begin + 1;  // corners [begin, end) are one fan, grown until no tied one is left
+    for (Index k = begin; k < end; ++k) {
+      for (Index other = end; other < count; ++other) {
+        if (!tied(state, corners[k], corners[other])) continue;
+        std::rotate(corners + end, corners + other, corners + other + 1);
+        ++end;
+      }
+    }
+    if (begin == 0 && end == count) return;  // still one
+    std::sort(corners + begin, corners + end);
+    Index fan = node;
+    if (begin > 0) {
+      fan = state.node_count();
+      state.node_first.push_back(state.node_first[at(node)] + begin);
+      state.node_size.push_back(0);
+      state.displacement.push_back(state.displacement[at(node)]);
+      state.velocity.push_back(state.velocity[at(node)]);
+      state.inverse_mass.push_back(0.0);
+      parting.nodes.push_back(fan);
+    }
+    state.node_size[at(fan)] = end - begin;
+    state.inverse_mass[at(fan)] = inverse_mass * (area / area_round(state, corners + begin, end - begin));
+    for (Index k = begin; k < end; ++k) state.node_of_corner[at(corners[k])] = fan;
+    begin = end;
+  }
+}
+
+void part_nodes(State& state, Index vertex, std::vector<Parting>& partings) {
+  // A vertex's corners are one segment of node_corners still: that of the node it began with.
+  const auto vertices = static_cast<Index>(state.mesh->vertices.size());
+  const Index first = state.node_first[at(vertex)];
+  const Index last = vertex + 1 < vertices ? state.node_first[at(vertex + 1)]
+                                           : static_cast<Index>(state.node_corners.size());
+  const std::size_t before = partings.size();
+  for (Index k = first; k < last;) {
+    const Index node = state.node_of_corner[at(state.node_corners[at(k)])];
+    k += state.node_size[at(node)];
+    Parting parting{vertex, {}};
+    part_node(state, node, parting);
+    if (parting.nodes.size() > 1) partings.push_back(std::move(parting));
+  }
+  if (partings.size() == before) return;
+  for (Index k = first; k < last; ++k) {
+    const Index corner = state.node_corners[at(k)];
+    for (const Index side : {corner % 3, (corner + 2) % 3}) {
+      const Index element = state.cohesive.of_edge[at(state.mesh->triangle_edges[at(corner / 3)][at(side)])];
+      if (element >= 0) look_up_nodes(state, element);
+    }
+  }
+}
+
 State make_state(std::shared_ptr<const Mesh> mesh, bool split) {
   State state;
   const std::size_t triangles = mesh->triangles.size();
@@ -35,8 +152,8 @@ State make_state(std::shared_ptr<const Mesh> mesh, bool split) {
     }
   }
   group_corners(state, split ? static_cast<Index>(3 * triangles) : mesh->vertex_count());
-  state.element_on_side.assign(3 * triangles, 0);  // 2 x 0 elements: the zero force
-  state.cohesive.force.assign(1, {});
+  state.element_on_side.assign(3 * triangles, -1);
+  state.cohesive.of_edge.assign(mesh->edges.size(), -1);
   state.fluid.cavity_of_edge.assign(mesh->edges.size(), -1);
   state.fluid.cavity_of_vertex.assign(mesh->vertices.size(), -1);
   state.mesh = std::move(mesh);
@@ -74,34 +191,24 @@ void fix_nodes(State& state, EdgeKind kind) {
 
 void insert_all(State& state) {
   const Mesh& mesh = *state.mesh;
-  CohesiveElements& elements = state.cohesive;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const Edge& edge = mesh.edges[e];
-    if (edge.kind != EdgeKind::interior) continue;
-    const Index a = 3 * edge.triangle[0];
-    const Index b = 3 * edge.triangle[1];
-    const Index a0 = a + edge.side[0], a1 = a + (edge.side[0] + 1) % 3;
-    const Index b1 = b + edge.side[1], b0 = b + (edge.side[1] + 1) % 3;
-    const Index element = elements.count();
-    elements.edge.push_back(static_cast<Index>(e));
-    elements.nodes.push_back({state.node_of_corner[at(a0)], state.node_of_corner[at(a1)],
-                              state.node_of_corner[at(b0)], state.node_of_corner[at(b1)]});
-    elements.direction.push_back(state.reference(a1) - state.reference(a0));
-    elements.inverse_length.push_back(1.0 / norm(elements.direction.back()));
-    state.element_on_side[at(a0)] = 2 * element;
-    state.element_on_side[at(b1)] = 2 * element + 1;
+  for (Index e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edges[at(e)].kind == EdgeKind::interior) append_element(state, e, 0);
   }
-  const std::size_t n = elements.edge.size();
-  elements.offset.assign(n, {});
-  elements.force.assign(n + 1, {});
-  elements.status.assign(n, CohesiveStatus::intact);
-  elements.history_of.assign(n, -1);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Edge& edge = mesh.edges[at(mesh.triangle_edges[t][i])];
-      if (edge.kind != EdgeKind::interior) state.element_on_side[3 * t + i] = static_cast<Index>(2 * n);
-    }
+  state.cohesive.initial = state.cohesive.count();
+}
+
+std::vector<Parting> insert_elements(State& state, std::span<const Index> edges, std::uint16_t material) {
+  std::vector<Index> vertices;
+  for (const Index e : edges) {
+    append_element(state, e, material);
+    const auto& ends = state.mesh->edges[at(e)].vertex;
+    vertices.insert(vertices.end(), ends.begin(), ends.end());
   }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::vector<Parting> partings;
+  for (const Index v : vertices) part_nodes(state, v, partings);
+  return partings;
 }
 
 }  // namespace crackle

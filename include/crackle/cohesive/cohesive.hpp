@@ -17,16 +17,25 @@ struct EndSeparation {
   Vec2 direction;  ///< unit, from end 0 to end 1
 };
 
+/// Force on a corner [N/m].
+using CornerForce = std::function<Vec2(Index corner)>;
+
 /// All cohesive elements of a state under one law: tractions, damage, breaking.
 ///
 /// An element has three integration points (its ends and its middle) with Simpson's weights. It
 /// breaks when two of them are fully damaged, as in Y-Geo.
 class Cohesive {
  public:
-  Cohesive(std::shared_ptr<const CohesiveLaw> law, const CohesiveMaterial& material);
+  /// @param materials by number (CohesiveElements::material); 0 is the rock's
+  Cohesive(std::shared_ptr<const CohesiveLaw> law, std::vector<CohesiveMaterial> materials);
+  Cohesive(std::shared_ptr<const CohesiveLaw> law, const CohesiveMaterial& material)
+      : Cohesive(std::move(law), std::vector<CohesiveMaterial>{material}) {}
 
   const CohesiveLaw& law() const { return *law_; }
-  const CohesiveMaterial& material() const { return material_; }
+  const std::vector<CohesiveMaterial>& materials() const { return materials_; }
+  /// Material of an element, with the penalty it was inserted with and, in the exact calibration, the
+  /// energy that its insertion gave it on top of the fracture energies.
+  CohesiveMaterial material(const State& state, Index element) const;
 
   /// Evaluates all elements: writes their end forces, grows damage, books dissipation to the state
   /// and collects the elements that broke (newly_broken()).
@@ -46,6 +55,20 @@ class Cohesive {
   /// @return elements whose traction is beyond the elastic branch (they will slip or break)
   std::vector<Index> balance(State& state, std::span<const Vec2> corner_forces) const;
 
+  /// Inserts elements on tied edges. Where nodes part the elements between them bear, at once, the force
+  /// with which every part goes on at the acceleration that the node had: nothing jumps. An end that
+  /// is tied still bears the mean stress of its two triangles, until it is parted in turn.
+  /// @param edges in ascending order @param penalty of each, at most the material's [Pa]
+  /// @param rock internal force of the rock on a corner @param load of fluid and boundary on it
+  /// @return elements whose traction is beyond the elastic branch (their forces jump)
+  std::vector<Index> insert(State& state, std::span<const Index> edges, std::span<const double> penalty,
+                            std::uint16_t material, const CornerForce& rock,
+                            const CornerForce& load) const;
+
+  /// How near an edge of a material is to its strength under a stress, 1 at the strength:
+  /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param along the edge, unit
+  static double utilisation(const CohesiveMaterial& material, Sym2 stress, Vec2 along);
+
   /// Recoverable energy of all elements [J/m].
   double stored_energy(const State& state) const;
 
@@ -62,9 +85,12 @@ class Cohesive {
 
  private:
   void evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const;
+  void start_history(State& state, Index element) const;
+  bool bear(State& state, Index element, const EndForces& target) const;
+  void load_springs(State& state, Index element) const;
 
   std::shared_ptr<const CohesiveLaw> law_;
-  CohesiveMaterial material_;
+  std::vector<CohesiveMaterial> materials_;
   std::vector<std::uint8_t> beyond_;  // per element, of the last fast pass
   std::vector<Index> newly_broken_;
   bool changed_ = false;

@@ -51,7 +51,14 @@ class Fluid {
 
   double energy(const State& state) const;         ///< [J/m]
   double wetted_length(const State& state) const;  ///< of wetted fractures, one side [m]
-  /// Wall forces of the present pressures per corner [N/m], added to `forces` (for the static stage).
+  /// Wall force on a corner [N/m].
+  struct CornerLoad {
+    Index corner;
+    Vec2 force;
+  };
+  /// Wall forces of the present pressures, in order of corner; a corner on two loops has two.
+  std::vector<CornerLoad> corner_loads(const State& state) const;
+  /// The same, added to `forces` per corner (for the static stage).
   void add_corner_forces(const State& state, std::span<Vec2> forces) const;
 
   /// Closed loops of one cavity, as corners in order round the fluid.
@@ -76,7 +83,6 @@ class Fluid {
   CompressibleFluid fluid_;
   Pump pump_;
   std::vector<Index> edges_of_vertex_first_, edges_of_vertex_;  // vertex -> edges
-  std::vector<Index> element_of_edge_;
   std::vector<Loop> loops_;
   std::vector<std::vector<Index>> slots_;  // per loop: slot of each corner's node in wet_
   std::vector<Wet> wet_;

@@ -56,7 +56,8 @@ struct Case {
   struct Cohesive {
     std::string law = "evans_marathe";  ///< a registered law
     std::string calibration = "exact";  ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
-    std::string insertion = "all";      ///< where cohesive elements are: "all" edges
+    std::string insertion = "all";      ///< "all" edges from the start, or "on_demand"
+    double threshold = 0.7;             ///< of its strength, where an edge gets its element on demand [-]
     std::string compliance = "kept";    ///< of the elements: "kept", or "compensated" by stiffer triangles
     double penalty = 0.0;               ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
   } cohesive;

@@ -18,6 +18,16 @@
 
 namespace crackle {
 
+/// A stress limit with which triangles near their strength are found on the way: stressed where the
+/// largest principal stress passes `tension`, or where |τ| + σ_n tan φ does `shear` on some plane.
+struct StressScreen {
+  double tension = 0.0;  ///< [Pa]
+  double shear = 0.0;    ///< [Pa]
+  double tan_friction = 0.0;
+};
+
+struct TriangleRun;
+
 /// Rock between the fractures: reference geometry and material of every triangle.
 class Bulk {
  public:
@@ -43,6 +53,19 @@ class Bulk {
   /// added) to forces[3 (t − begin) + i]. Writes state.strain_rate when viscous.
   /// @return viscous dissipation of the last step times 1/time_step [W/m]
   double corner_forces(State& state, Index begin, Index end, Vec2* forces) const;
+  /// The same; also marks with 1 in stressed[t − begin] every triangle that passes the screen, others with 0.
+  double corner_forces(State& state, Index begin, Index end, Vec2* forces, const StressScreen& screen,
+                       std::uint8_t* stressed) const;
+
+  /// The forces on one triangle's corners [N/m], nothing written.
+  std::array<Vec2, 3> triangle_forces(const State& state, Index triangle) const;
+  /// For each corner of a triangle the sum of the norms of its stiffness [N/m2], or viscosity [N s/m2],
+  /// against all three corners: the rows of Gershgorin's bound, by blocks.
+  std::array<double, 3> stiffness_rows(Index triangle) const { return rows(triangle, stiffness_); }
+  std::array<double, 3> viscosity_rows(Index triangle) const {
+    const double mu = viscosity(triangle);
+    return rows(triangle, {mu, 0.0, mu, 0.0, 0.0, 0.5 * mu});
+  }
 
   /// Recoverable energy of all triangles [J/m], from the in-situ state: Σ A₀ (½ E:C:E + S₀:E).
   double strain_energy(const State& state) const;
@@ -57,6 +80,9 @@ class Bulk {
   std::array<Vec2, 3> shape_gradients(Index triangle) const;
 
  private:
+  std::array<double, 3> rows(Index triangle, const PlaneStiffness& c) const;
+  TriangleRun run_of(State& state, Index begin, Index end) const;
+
   PlaneStiffness stiffness_;
   double density_;
   bool viscous_ = false;

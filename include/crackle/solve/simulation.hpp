@@ -18,6 +18,13 @@
 
 namespace crackle {
 
+/// Which edges carry a cohesive element: all from the start, or those that come near their strength.
+struct InsertionPolicy {
+  bool on_demand = false;
+  double threshold = 0.7;  ///< of the strength (Cohesive::utilisation) at which an edge gets its element
+  double step = 0.6;       ///< time step over the tied rock's, which leaves room for the elements' penalty
+};
+
 /// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive.
 struct Scene {
   std::shared_ptr<const Mesh> mesh;  ///< excavated
@@ -28,6 +35,7 @@ struct Scene {
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
   CohesiveMaterial cohesive;
+  InsertionPolicy insertion;
   ContactMaterial contact;          ///< of faces that have moved past their partner
   bool absorbing_boundary = false;  ///< outer boundary: absorbing, or fixed
   std::vector<Index> cracks;        ///< mesh edges broken from the start
@@ -72,6 +80,8 @@ class Simulation {
   const Stopwatch& stopwatch() const { return stopwatch_; }
   /// Elements that were beyond their strength in the geostatic stage; 0: it was elastic.
   Index geostatic_slips() const { return geostatic_slips_; }
+  /// Elements inserted on demand that could not bear at once what their edge bore: forces jumped there.
+  Index rough_insertions() const { return rough_insertions_; }
   double wellbore_pressure() const;  ///< [Pa]; 0 without fluid
 
   /// One explicit step of length dt [s].
@@ -90,6 +100,10 @@ class Simulation {
   void relax();
   void advance(double dt, Energies* account);
   void move_nodes(double dt);
+  void cut_cracks();
+  void prepare_insertion();
+  void insert_stressed();
+  void insert(const std::vector<Index>& edges);
   Energies potential_energies() const;
   [[noreturn]] void stop_not_finite() const;
 
@@ -105,6 +119,12 @@ class Simulation {
   std::vector<SeismicEvent> new_events_;
   std::vector<Vec2> corner_force_;  // where corners share nodes
   std::vector<Vec2> velocity_before_;
+  StressScreen screen_;                   // on demand: near the threshold
+  std::vector<std::uint8_t> stressed_;    // per triangle, of the last step
+  std::vector<char> block_stressed_;      // per block of triangles: any
+  std::vector<char> block_has_elements_;  // per block of triangles: any on its sides
+  double slowed_ = 1.0;                   // share of the step that inserted elements leave
+  Index rough_insertions_ = 0;
   Energies reference_;  // stored energies at the start
   double scale_ = 0.0;  // largest energy so far
   Index geostatic_slips_ = 0;

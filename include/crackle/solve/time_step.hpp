@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Stable time step of the explicit loop, from a proven bound on the largest frequency of a triangle
-// with its corner masses m = ρA/3:
+// Stable time step of the explicit loop, from proven bounds. By triangles, each with its own corner
+// masses m = ρA/3:
 //   rock      ω_e² ≤ (6 (λ+μ)/ρ) S,  S = [ΣL² + √((ΣL²)² − 48A²)] / (8A²)
 //   element   ω_j² = (p_f/2) (1/m_a + 1/m_b);   together  ω² ≤ ω_e² + 2 max_j ω_j²
 //   viscosity κ ≤ (3 μᵥ/ρ) S,  ξ = κ/(2ω);       Δt ≤ (2/ω) (√(1+ξ²) − ξ)
-// The fluid does not limit the step (its pressure is solved for).
+// and by nodes, which corners may share (Gershgorin by 2 x 2 blocks): R and V the sums of the norms of
+// the stiffness and viscosity blocks in the node's row, p_f of every element at it:
+//   Δt²/4 (R + Σ p_f) + Δt/2 V ≤ m
+// The larger of the two holds. The fluid does not limit the step (its pressure is solved for).
 #pragma once
 
 #include <string>
@@ -23,6 +26,13 @@ struct StableStep {
   /// One line: what limits the step, and where.
   std::string explain(const Mesh& mesh) const;
 };
+
+/// Stable step of one node [s], by its row.
+double node_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node);
+
+/// Largest penalty [Pa] with which an element may be inserted on an edge so that a corner that it cuts
+/// loose, with another such element on its other side, allows a step [s]; may be negative.
+double penalty_below(const State& state, const Bulk& bulk, Index edge, double step);
 
 /// @param cohesive nullptr: no cohesive elements
 StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* cohesive);

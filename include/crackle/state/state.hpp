@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "crackle/core/vec2.hpp"
@@ -33,12 +34,20 @@ struct CohesivePoint {
   double shear = 0.0;     ///< cohesive part of the traction along [Pa]
   double friction = 0.0;  ///< frictional part of the traction along [Pa]
   double stored = 0.0;    ///< recoverable energy [J/m2]
+  double inserted = 0.0;  ///< part of it that the spring was given when it was inserted under load [J/m2]
+
+  /// Recoverable energy that came from the rock [J/m2]: what the insertion gave is taken back as damage
+  /// grows, so that neither inserting nor breaking makes energy.
+  double recoverable() const { return stored - (1.0 - damage) * inserted; }
 };
 
 /// History of one active or broken cohesive element.
 struct CohesiveHistory {
   Index element = -1;
   std::array<CohesivePoint, 3> point;
+  double penalty = 0.0;           ///< of its springs [Pa]; 0: its material's
+  double inserted_mode1 = 0.0;    ///< energy that insertion gave the springs, in opening [J/m2]
+  double inserted_mode2 = 0.0;    ///< and in slip [J/m2]
   double fracture_energy = 0.0;   ///< dissipated by breaking [J/m]
   double sliding_work = 0.0;      ///< part of fracture_energy done in shear [J/m]
   double friction_energy = 0.0;   ///< dissipated by friction [J/m]
@@ -63,10 +72,13 @@ struct CohesiveElements {
   std::vector<double> inverse_length;       ///< of direction [1/m]
   std::vector<std::array<double, 4>>
       offset;  ///< opening0, slip0, opening1, slip1 that make the traction borne at insertion [m]
-  std::vector<EndForces> force;  ///< of the last evaluation; one more at the end, zero
+  std::vector<std::uint16_t> material;  ///< number of its material
+  std::vector<EndForces> force;         ///< of the last evaluation
   std::vector<CohesiveStatus> status;
   std::vector<Index> history_of;           ///< into histories; -1: intact
   std::vector<CohesiveHistory> histories;  ///< in order of activation
+  std::vector<Index> of_edge;              ///< element of a mesh edge; -1: tied, or a boundary
+  Index initial = 0;  ///< elements there from the start on all edges; later ones have a history at once
 
   Index count() const { return static_cast<Index>(edge.size()); }
 };
@@ -115,7 +127,8 @@ struct ContactState {
 ///
 /// A triangle has three corners (corner 3 t + i). A node is a group of corners that move together:
 /// with cohesive elements on all edges every corner is a node of its own, without any the corners
-/// round a vertex are one node. Corners of a node are a segment of `node_corners`.
+/// round a vertex are one node, and part into the fans that are still tied as elements are inserted.
+/// Corners of a node are a segment of `node_corners`.
 struct State {
   std::shared_ptr<const Mesh> mesh;
 
@@ -136,8 +149,7 @@ struct State {
   std::vector<Sym2> strain_rate;  ///< of the last evaluation [1/s]; empty without viscosity
 
   CohesiveElements cohesive;
-  std::vector<Index> element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i;
-                                       ///< 2 x count() (the zero force) where there is none
+  std::vector<Index> element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i; -1: none
   ContactState contact;
   FluidState fluid;
   Dissipation dissipation;
@@ -172,5 +184,17 @@ void fix_nodes(State& state, EdgeKind kind);
 
 /// Adds a cohesive element on every interior edge; needs a split state. Offsets are zero.
 void insert_all(State& state);
+
+/// A node that has parted into several, each a fan of corners round a vertex that are still tied.
+struct Parting {
+  Index vertex = -1;
+  std::vector<Index> nodes;  ///< the first kept its number
+};
+
+/// Adds cohesive elements, without a history yet, on tied interior edges of a state that was made tied,
+/// and parts the nodes at their ends: mass goes with the corners, displacement and velocity are
+/// copied, so mass and momentum are the same to round-off.
+/// @param edges in ascending order @return nodes that parted, by vertex
+std::vector<Parting> insert_elements(State& state, std::span<const Index> edges, std::uint16_t material);
 
 }  // namespace crackle

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <random>
 
 #include "../../granite.hpp"
 
@@ -66,13 +68,82 @@ TEST(State, ElementsJoinCornersAtTheSamePlaces) {
   ASSERT_EQ(state.cohesive.edge, interior);
   std::vector<int> seen(interior.size(), 0);
   for (const Index code : state.element_on_side) {
-    if (code < 2 * state.cohesive.count()) seen[at(code / 2)] += code % 2 == 0 ? 1 : 10;
+    if (code >= 0) seen[at(code / 2)] += code % 2 == 0 ? 1 : 10;
   }
   EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 11; })) << "once on either face";
   for (const auto& n : state.cohesive.nodes) {
     EXPECT_EQ(state.node_reference(n[0]), state.node_reference(n[2]));
     EXPECT_EQ(state.node_reference(n[1]), state.node_reference(n[3]));
   }
+}
+
+// Elements inserted edge by edge, in a scrambled order, until all are there: mass and momentum stay, the
+// corners of every node are those that tied edges still join, and in the end every corner is alone.
+TEST(State, InsertedEdgesPartNodesIntoTiedFans) {
+  State state = make_tied_state(plate());
+  set_mass(state, 2500.0);
+  for (Index n = 0; n < state.node_count(); ++n) {
+    const Vec2 x = state.node_reference(n);
+    state.velocity[at(n)] = {1.0 + x.x * x.y, x.x - 0.3 * x.y};
+  }
+  const auto momentum = [&] {
+    Vec2 sum;
+    for (Index n = 0; n < state.node_count(); ++n) sum += (1.0 / state.inverse_mass[at(n)]) * state.velocity[at(n)];
+    return sum;
+  };
+  const Vec2 before = momentum();
+  std::vector<Index> edges = granite::edges_of_kind(*state.mesh, EdgeKind::interior);
+  std::shuffle(edges.begin(), edges.end(), std::mt19937(1));
+  for (const Index e : edges) {
+    const Index nodes = state.node_count();
+    Index fresh = 0;
+    for (const Parting& p : insert_elements(state, std::array{e}, 0)) {
+      fresh += static_cast<Index>(p.nodes.size()) - 1;
+      for (const Index n : p.nodes) EXPECT_EQ(state.node_reference(n), state.mesh->vertices[at(p.vertex)]);
+    }
+    EXPECT_EQ(state.node_count(), nodes + fresh);
+  }
+  EXPECT_EQ(state.cohesive.count(), static_cast<Index>(edges.size()));
+  EXPECT_EQ(state.node_count(), 3 * state.mesh->triangle_count());
+  for (const Index size : state.node_size) EXPECT_EQ(size, 1);
+  for (Index c = 0; c < 3 * state.mesh->triangle_count(); ++c) {
+    EXPECT_EQ(state.node_reference(state.node_of_corner[at(c)]), state.reference(c));
+  }
+  EXPECT_NEAR(total_mass(state), 5000.0, 1e-9);
+  EXPECT_LT(norm(momentum() - before), 1e-12 * norm(before));
+  for (Index e = 0; e < state.cohesive.count(); ++e) {
+    const auto& n = state.cohesive.nodes[at(e)];
+    EXPECT_EQ(state.node_reference(n[0]), state.node_reference(n[2]));
+    EXPECT_EQ(state.node_reference(n[1]), state.node_reference(n[3]));
+    EXPECT_NE(n[0], n[2]);
+    EXPECT_NE(n[1], n[3]);
+  }
+}
+
+// One edge inside the rock frees nothing; a second one at its end opens the vertex between them.
+TEST(State, ALoneEdgeFreesNothing) {
+  State state = make_tied_state(plate());
+  set_mass(state, 2500.0);
+  const Mesh& mesh = *state.mesh;
+  const auto interior_vertex = [&](Index v) {
+    const Vec2 x = mesh.vertices[at(v)];
+    return x.x > 0.0 && x.x < 2.0 && x.y > 0.0 && x.y < 1.0;
+  };
+  for (const Index e : granite::edges_of_kind(mesh, EdgeKind::interior)) {
+    const auto [start, middle] = mesh.edges[at(e)].vertex;
+    if (!interior_vertex(start) || !interior_vertex(middle)) continue;
+    for (const Index f : granite::edges_of_kind(mesh, EdgeKind::interior)) {
+      const auto [a, b] = mesh.edges[at(f)].vertex;
+      if (f == e || (a != middle && b != middle) || !interior_vertex(a == middle ? b : a)) continue;
+      EXPECT_TRUE(insert_elements(state, std::array{e}, 0).empty());
+      const auto partings = insert_elements(state, std::array{f}, 0);
+      ASSERT_EQ(partings.size(), 1u);
+      EXPECT_EQ(partings[0].vertex, middle);
+      EXPECT_EQ(partings[0].nodes.size(), 2u);
+      return;
+    }
+  }
+  FAIL() << "the plate has no such edges";
 }
 
 }  // namespace
