@@ -225,9 +225,9 @@ std::vector<Index> Cohesive::balance(State& state, std::span<const Vec2> corner_
   return beyond;
 }
 
-std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges, std::span<const double> penalty,
-                                    std::uint16_t number, const CornerForce& rock,
-                                    const CornerForce& load) const {
+std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges,
+                                    std::span<const double> penalty, std::uint16_t number,
+                                    const CornerForce& rock, const CornerForce& load) const {
   CohesiveElements& c = state.cohesive;
   const Index first_new = c.count();
   const std::vector<Parting> partings = insert_elements(state, edges, number);
@@ -249,8 +249,8 @@ std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges, 
     std::vector<Index> done;
     for (const Index node : parting.nodes) {
       if (std::find(done.begin(), done.end(), node) != done.end()) continue;
-      const Row row = row_of(state, state.node_corners[at(state.node_first[at(node)])], parting.vertex, force,
-                             belongs);
+      const Row row =
+          row_of(state, state.node_corners[at(state.node_first[at(node)])], parting.vertex, force, belongs);
       done.insert(done.end(), row.nodes.begin(), row.nodes.end());
       Vec2 sum;
       double mass = 0.0;
@@ -261,14 +261,16 @@ std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges, 
       const std::vector<Vec2> forces = share(state, row, (1.0 / mass) * sum, rock);
       for (std::size_t k = 0; k < row.links.size(); ++k) {
         const Index e = row.links[k].element;
-        aim(state, row.links[k], parting.vertex, forces[k], target.try_emplace(e, c.force[at(e)]).first->second);
+        aim(state, row.links[k], parting.vertex, forces[k],
+            target.try_emplace(e, c.force[at(e)]).first->second);
       }
     }
   }
   std::vector<Index> beyond;
   for (const auto& [element, forces] : target) {
     const auto& points = c.histories[at(c.history_of[at(element)])].point;
-    const bool damaged = std::any_of(points.begin(), points.end(), [](const auto& p) { return p.damage > 0.0; });
+    const bool damaged =
+        std::any_of(points.begin(), points.end(), [](const auto& p) { return p.damage > 0.0; });
     if (damaged || !bear(state, element, forces)) beyond.push_back(element);
     if (!damaged) load_springs(state, element);
   }

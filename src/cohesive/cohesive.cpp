@@ -219,7 +219,8 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     const double normal_work = 0.5 * (p.normal + old[q].normal) * (p.opening - old[q].opening);
     const double shear_work = 0.5 * (p.shear + old[q].shear) * d_slip;
     const double friction_work = 0.5 * (p.friction + old[q].friction) * d_slip;
-    const double dissipated = normal_work + shear_work + friction_work - (p.recoverable() - old[q].recoverable());
+    const double dissipated =
+        normal_work + shear_work + friction_work - (p.recoverable() - old[q].recoverable());
     const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
     const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
     // Never negative: what a step would gain is left to the ledger's residual, where it shows.
@@ -276,19 +277,25 @@ void Cohesive::load_springs(State& state, Index element) const {
   for (std::size_t q = 0; q < 3; ++q) {
     CohesivePoint& p = h.point[q];
     const double before = p.stored;
-    law_->move(m, length, q == 0 ? w.opening0 : q == 1 ? w.opening1 : 0.5 * (w.opening0 + w.opening1),
-               q == 0 ? w.slip0 : q == 1 ? w.slip1 : 0.5 * (w.slip0 + w.slip1), p);
+    law_->move(m, length,
+               q == 0   ? w.opening0
+               : q == 1 ? w.opening1
+                        : 0.5 * (w.opening0 + w.opening1),
+               q == 0   ? w.slip0
+               : q == 1 ? w.slip1
+                        : 0.5 * (w.slip0 + w.slip1),
+               p);
     p.inserted += p.stored - before;
-    const double across = elastic_energy(m.penalty / length, law_->curvature(), m.tensile_strength, m.cohesion,
-                                         m.tan_friction, p.opening, 0.0);
+    const double across = elastic_energy(m.penalty / length, law_->curvature(), m.tensile_strength,
+                                         m.cohesion, m.tan_friction, p.opening, 0.0);
     const double weight = q == 2 ? 4.0 / 6.0 : 1.0 / 6.0;
     if (p.opening > 0.0) h.inserted_mode1 += weight * across;
     h.inserted_mode2 += weight * std::max(0.0, p.stored - across);
   }
   const auto& p = h.point;
-  c.force[at(element)] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction,
-                                    p[2].normal, p[2].shear + p[2].friction, p[1].normal,
-                                    p[1].shear + p[1].friction);
+  c.force[at(element)] =
+      end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
+                 p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
 }
 
 void Cohesive::add_tractions(State& state) {

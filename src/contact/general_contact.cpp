@@ -24,9 +24,9 @@ struct GeneralContact::Search {
   FreeSides sides;
   std::vector<PlacedSide> placed;
   Candidates candidates;
-  double moved = 0.0;      // bound of the motion against one another since the lists were made [m]
-  Index nodes = 0;         // when the sides were looked up
-  bool ready = false;      // the sides have been looked up
+  double moved = 0.0;  // bound of the motion against one another since the lists were made [m]
+  Index nodes = 0;     // when the sides were looked up
+  bool ready = false;  // the sides have been looked up
   bool any_released = false;
 
   // True once something can touch: several bodies, or something released.

@@ -264,7 +264,8 @@ std::vector<Fluid::CornerLoad> Fluid::corner_loads(const State& state) const {
       loads.push_back({c[k], {0.5 * p * (before.y - after.y), 0.5 * p * (after.x - before.x)}});
     }
   }
-  std::stable_sort(loads.begin(), loads.end(), [](const auto& a, const auto& b) { return a.corner < b.corner; });
+  std::stable_sort(loads.begin(), loads.end(),
+                   [](const auto& a, const auto& b) { return a.corner < b.corner; });
   return loads;
 }
 

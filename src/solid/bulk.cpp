@@ -43,12 +43,12 @@ inline Sym2 green_strain(const Gradient& h) {
 // Corner forces of one run of triangles; the viscous part and the screen are compiled out where there
 // is none.
 template <bool viscous, bool screened>
-[[gnu::always_inline]] inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u, const Vec2* __restrict v,
-                        const std::array<double, 4>* __restrict inverse_shape, const double* __restrict area,
-                        const Sym2* __restrict in_situ, const double* __restrict viscosity,
-                        Sym2* __restrict strain_rate, const PlaneStiffness& c, Index count,
-                        Vec2* __restrict forces, const StressScreen& screen,
-                        std::uint8_t* __restrict stressed) {
+[[gnu::always_inline]] inline double forces_of(
+    const Index* __restrict nodes, const Vec2* __restrict u, const Vec2* __restrict v,
+    const std::array<double, 4>* __restrict inverse_shape, const double* __restrict area,
+    const Sym2* __restrict in_situ, const double* __restrict viscosity, Sym2* __restrict strain_rate,
+    const PlaneStiffness& c, Index count, Vec2* __restrict forces, const StressScreen& screen,
+    std::uint8_t* __restrict stressed) {
   double power = 0.0;
   const double secant = std::sqrt(1.0 + screen.tan_friction * screen.tan_friction);
 #pragma omp simd reduction(+ : power)
@@ -90,8 +90,8 @@ template <bool viscous, bool screened>
 }
 
 template <bool viscous, bool screened>
-[[gnu::always_inline]] inline double forces_of(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces, const StressScreen& screen,
-                        std::uint8_t* stressed) {
+[[gnu::always_inline]] inline double forces_of(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces,
+                                               const StressScreen& screen, std::uint8_t* stressed) {
   return forces_of<viscous, screened>(r.nodes, r.u, r.v, r.inverse_shape, r.area, r.in_situ, r.viscosity,
                                       r.strain_rate, c, r.count, forces, screen, stressed);
 }

@@ -245,8 +245,8 @@ void Simulation::insert(const std::vector<Index>& edges) {
   std::vector<double> penalty;
   for (const Index e : edges) {
     // Where a sliver leaves no room the step gives way instead.
-    penalty.push_back(std::min(scene_.cohesive.penalty,
-                               std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
+    penalty.push_back(
+        std::min(scene_.cohesive.penalty, std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
     for (const Index t : scene_.mesh->edges[at(e)].triangle) block_has_elements_[at(t / block_size)] = 1;
   }
   const Index nodes = state_.node_count();
@@ -295,7 +295,8 @@ void Simulation::move_nodes(double dt) {
     } else {
       std::uint8_t* stressed = stressed_.data() + begin;
       power[at(block)] = bulk_.corner_forces(state_, begin, end, forces, screen_, stressed);
-      block_stressed_[at(block)] = std::any_of(stressed, stressed + (end - begin), [](auto s) { return s != 0; });
+      block_stressed_[at(block)] =
+          std::any_of(stressed, stressed + (end - begin), [](auto s) { return s != 0; });
     }
     if (block_has_elements_[at(block)]) {
       for (Index t = begin; t < end; ++t) {

@@ -41,8 +41,8 @@ double penalty_below(const State& state, const Bulk& bulk, Index e, double step)
     const double mass = bulk.density() * bulk.area(t) / 3.0;
     const auto stiffness = bulk.stiffness_rows(t), viscosity = bulk.viscosity_rows(t);
     for (const Index i : {Index{edge.side[f]}, (Index{edge.side[f]} + 1) % 3}) {
-      penalty = std::min(penalty, 0.5 * (4.0 * mass / (step * step) - 2.0 * viscosity[at(i)] / step -
-                                         stiffness[at(i)]));
+      penalty = std::min(
+          penalty, 0.5 * (4.0 * mass / (step * step) - 2.0 * viscosity[at(i)] / step - stiffness[at(i)]));
     }
   }
   return penalty;

@@ -75,7 +75,8 @@ bool tied(const State& state, Index corner, Index other) {
   for (const Index side : {corner % 3, (corner + 2) % 3}) {
     const Index e = mesh.triangle_edges[at(corner / 3)][at(side)];
     const Edge& edge = mesh.edges[at(e)];
-    if ((edge.triangle[0] == other / 3 || edge.triangle[1] == other / 3) && state.cohesive.of_edge[at(e)] < 0) {
+    if ((edge.triangle[0] == other / 3 || edge.triangle[1] == other / 3) &&
+        state.cohesive.of_edge[at(e)] < 0) {
       return true;
     }
   }

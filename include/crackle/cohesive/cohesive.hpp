@@ -62,8 +62,7 @@ class Cohesive {
   /// @param rock internal force of the rock on a corner @param load of fluid and boundary on it
   /// @return elements whose traction is beyond the elastic branch (their forces jump)
   std::vector<Index> insert(State& state, std::span<const Index> edges, std::span<const double> penalty,
-                            std::uint16_t material, const CornerForce& rock,
-                            const CornerForce& load) const;
+                            std::uint16_t material, const CornerForce& rock, const CornerForce& load) const;
 
   /// How near an edge of a material is to its strength under a stress, 1 at the strength:
   /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param along the edge, unit

@@ -149,7 +149,8 @@ struct State {
   std::vector<Sym2> strain_rate;  ///< of the last evaluation [1/s]; empty without viscosity
 
   CohesiveElements cohesive;
-  std::vector<Index> element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i; -1: none
+  std::vector<Index>
+      element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i; -1: none
   ContactState contact;
   FluidState fluid;
   Dissipation dissipation;

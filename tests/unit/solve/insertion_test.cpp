@@ -35,7 +35,8 @@ TEST(Insertion, UnderUniformStressNothingMoves) {
   const WaveSpeeds c = wave_speeds(simulation.scene().stiffness, simulation.scene().density);
   const double wave = simulation.scene().density * c.p * fastest / simulation.scene().stress.xx;
   std::printf("%d of %d edges inserted, %d roughly; waves of %.1e of the stress, residual %.1e\n",
-              state.cohesive.count(), state.mesh->edge_count(), simulation.rough_insertions(), wave, residual);
+              state.cohesive.count(), state.mesh->edge_count(), simulation.rough_insertions(), wave,
+              residual);
   EXPECT_GT(state.cohesive.count(), 300);
   EXPECT_EQ(simulation.rough_insertions(), 0);
   EXPECT_LT(wave, 1e-9);

@@ -88,7 +88,8 @@ TEST(State, InsertedEdgesPartNodesIntoTiedFans) {
   }
   const auto momentum = [&] {
     Vec2 sum;
-    for (Index n = 0; n < state.node_count(); ++n) sum += (1.0 / state.inverse_mass[at(n)]) * state.velocity[at(n)];
+    for (Index n = 0; n < state.node_count(); ++n)
+      sum += (1.0 / state.inverse_mass[at(n)]) * state.velocity[at(n)];
     return sum;
   };
   const Vec2 before = momentum();
