@@ -41,12 +41,7 @@ class Tally {
     summary_.magnitude_min = summary_.magnitude_max = std::numeric_limits<double>::quiet_NaN();
   }
   void event(const SeismicEvent& e) {
-    ++broken_[static_cast<std::size_t>(e.mode)];
-    summary_.broken_length += e.length;
-    low_ = {std::min(low_.x, e.place.x), std::min(low_.y, e.place.y)};
-    high_ = {std::max(high_.x, e.place.x), std::max(high_.y, e.place.y)};
-    summary_.extent_x = high_.x - low_.x;
-    summary_.extent_y = high_.y - low_.y;
+    if (e.kind == EventKind::breaking) broke(e);
     summary_.magnitude_min = std::fmin(summary_.magnitude_min, e.magnitude);
     summary_.magnitude_max = std::fmax(summary_.magnitude_max, e.magnitude);
     ++summary_.events;
@@ -64,7 +59,7 @@ class Tally {
   }
   void residual(double r) { summary_.energy_residual_max = std::max(summary_.energy_residual_max, r); }
   std::int64_t broken(FailureMode mode) const { return broken_[static_cast<std::size_t>(mode)]; }
-  std::int64_t broken() const { return summary_.events; }
+  std::int64_t broken() const { return broken_[1] + broken_[2] + broken_[3]; }
   RunSummary finish() const {
     RunSummary s = summary_;
     if (late_time_ > 0.0) s.propagation_pressure = late_sum_ / late_time_;
@@ -72,6 +67,15 @@ class Tally {
   }
 
  private:
+  void broke(const SeismicEvent& e) {
+    ++broken_[static_cast<std::size_t>(e.mode)];
+    summary_.broken_length += e.length;
+    low_ = {std::min(low_.x, e.place.x), std::min(low_.y, e.place.y)};
+    high_ = {std::max(high_.x, e.place.x), std::max(high_.y, e.place.y)};
+    summary_.extent_x = high_.x - low_.x;
+    summary_.extent_y = high_.y - low_.y;
+  }
+
   RunSummary summary_;
   std::array<std::int64_t, 4> broken_{};
   Vec2 low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -264,7 +268,7 @@ int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folde
       "breakdown {:.3f} MPa at {:.4f} ms, propagation {:.3f} MPa; {} broken elements, {:.3f} m; energy "
       "residual {:.1e}",
       1e-6 * summary.breakdown_pressure, 1e3 * summary.breakdown_time, 1e-6 * summary.propagation_pressure,
-      summary.events, summary.broken_length, summary.energy_residual_max));
+      tally.broken(), summary.broken_length, summary.energy_residual_max));
   say(fmt::format("{}: {}", exit, folder.path()));
   return code;
 }

@@ -24,7 +24,7 @@ void Status::show(const Progress::Now& now) {
   const bool first = status_.state != "running";
   status_.time = now.time;
   status_.step = now.step;
-  status_.events = now.broken;
+  status_.broken = now.broken;
   if (!first && clock - last_ < std::chrono::seconds(1)) return;
   if (first) {
     status_.state = "running";

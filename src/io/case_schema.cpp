@@ -160,7 +160,8 @@ std::vector<TableSpec> make_tables() {
     {"seismic.reference", {
       number("longitude", slot<&C::seismic, &C::Seismic::longitude>(), degrees, east, Need::never, "of the origin, east positive"),
       number("latitude", slot<&C::seismic, &C::Seismic::latitude>(), degrees, north, Need::never, "of the origin, north positive"),
-      number("depth", slot<&C::seismic, &C::Seismic::depth>(), length, any, Need::never, "of the section, down positive"),
+      number("depth", slot<&C::seismic, &C::Seismic::depth>(), length, any, Need::never, "of the origin, down positive"),
+      choice("depth_axis", slot<&C::seismic, &C::Seismic::depth_axis>(), {"out_of_plane", "y"}, "along which depth changes: the section is level (y north), or upright (y up)"),
       moment("epoch", slot<&C::seismic, &C::Seismic::epoch>(), "of simulated time zero, ISO 8601 in UTC"),
     }},
     {"output", {

@@ -17,7 +17,42 @@ namespace crackle {
 
 namespace {
 
-constexpr std::size_t columns = 11;
+/// Every column with the value of an event that it holds.
+/// @param visit (name, number or enumeration)
+void each_column(auto&& event, const auto& visit) {
+  visit("time_s", event.time);
+  visit("x_m", event.place.x);
+  visit("y_m", event.place.y);
+  visit("kind", event.kind);
+  visit("mode", event.mode);
+  visit("energy_J_m", event.energy);
+  visit("magnitude", event.magnitude);
+  visit("fracture_energy_J_m", event.fracture_energy);
+  visit("friction_energy_J_m", event.friction_energy);
+  visit("length_m", event.length);
+  visit("opening_m", event.opening);
+  visit("slip_m", event.slip);
+  visit("stress_drop_Pa", event.stress_drop);
+  visit("duration_s", event.duration);
+  visit("moment_xx_N_m_m", event.moment.xx);
+  visit("moment_yy_N_m_m", event.moment.yy);
+  visit("moment_zz_N_m_m", event.moment.zz);
+  visit("moment_xy_N_m_m", event.moment.xy);
+  visit("moment_magnitude", event.moment_magnitude);
+  visit("edges", event.edges);
+  visit("edge", event.edge);
+}
+
+std::size_t column_count() {
+  std::size_t count = 0;
+  each_column(SeismicEvent{}, [&](const char*, const auto&) { ++count; });
+  return count;
+}
+
+std::string cell(double value) { return fmt::format("{}", value); }
+std::string cell(Index value) { return fmt::format("{}", value); }
+std::string cell(FailureMode mode) { return to_string(mode); }
+std::string cell(EventKind kind) { return to_string(kind); }
 
 [[noreturn]] void throw_damaged(const std::string& path, int line, const std::string& what) {
   throw CaseError(path + ":" + std::to_string(line) + ": " + what);
@@ -28,35 +63,49 @@ class RowReader {
  public:
   RowReader(const std::string& path, int line, std::string_view text)
       : path_(path), line_(line), cells_(split_cells(text, ',')) {
-    if (cells_.size() != columns) {
+    if (cells_.size() != column_count()) {
       throw_damaged(
           path_, line_,
           fmt::format("this row has {} columns instead of {}; remove the row (a run that was killed "
                       "may leave its last one unfinished)",
-                      cells_.size(), columns));
+                      cells_.size(), column_count()));
     }
   }
 
+  SeismicEvent event() const {
+    SeismicEvent event;
+    std::size_t column = 0;
+    each_column(event, [&](const char* name, auto& value) { read(name, cells_[column++], value); });
+    return event;
+  }
+
+ private:
   template <class Number>
-  Number number(std::size_t column, const char* name) const {
-    const std::string_view cell = cells_[column];
-    Number value{};
+  void read(const char* name, std::string_view cell, Number& value) const {
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc{} || end != cell.data() + cell.size()) {
       throw_damaged(path_, line_, fmt::format("{} is \"{}\", which is not a number", name, cell));
     }
-    return value;
   }
-
-  FailureMode mode(std::size_t column) const {
+  void read(const char*, std::string_view cell, FailureMode& value) const {
     for (const FailureMode mode : {FailureMode::tensile, FailureMode::shear, FailureMode::mixed}) {
-      if (cells_[column] == to_string(mode)) return mode;
+      if (cell == to_string(mode)) {
+        value = mode;
+        return;
+      }
     }
-    throw_damaged(path_, line_,
-                  fmt::format("mode is \"{}\"; it has to be tensile, shear or mixed", cells_[column]));
+    throw_damaged(path_, line_, fmt::format("mode is \"{}\"; it has to be tensile, shear or mixed", cell));
+  }
+  void read(const char*, std::string_view cell, EventKind& value) const {
+    for (const EventKind kind : {EventKind::breaking, EventKind::slip}) {
+      if (cell == to_string(kind)) {
+        value = kind;
+        return;
+      }
+    }
+    throw_damaged(path_, line_, fmt::format("kind is \"{}\"; it has to be breaking or slip", cell));
   }
 
- private:
   const std::string& path_;
   int line_;
   std::vector<std::string_view> cells_;
@@ -65,13 +114,17 @@ class RowReader {
 }  // namespace
 
 std::string events_header() {
-  return "time_s,x_m,y_m,mode,energy_J_m,magnitude,fracture_energy_J_m,length_m,opening_m,slip_m,edge\n";
+  std::string text;
+  each_column(SeismicEvent{},
+              [&](const char* name, const auto&) { text += (text.empty() ? "" : ",") + std::string(name); });
+  return text + "\n";
 }
 
 std::string event_line(const SeismicEvent& event) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", event.time, event.place.x, event.place.y,
-                     to_string(event.mode), event.energy, event.magnitude, event.fracture_energy,
-                     event.length, event.opening, event.slip, event.edge);
+  std::string text;
+  each_column(event,
+              [&](const char*, const auto& value) { text += (text.empty() ? "" : ",") + cell(value); });
+  return text + "\n";
 }
 
 std::vector<SeismicEvent> read_events_csv(const std::string& path) {
@@ -90,19 +143,7 @@ std::vector<SeismicEvent> read_events_csv(const std::string& path) {
   for (int line = 2; !text.empty(); ++line) {
     const std::string_view row = take_line(text);
     if (row.empty() && text.empty()) break;
-    const RowReader reader(file, line, row);
-    SeismicEvent event;
-    event.time = reader.number<double>(0, "time_s");
-    event.place = {reader.number<double>(1, "x_m"), reader.number<double>(2, "y_m")};
-    event.mode = reader.mode(3);
-    event.energy = reader.number<double>(4, "energy_J_m");
-    event.magnitude = reader.number<double>(5, "magnitude");
-    event.fracture_energy = reader.number<double>(6, "fracture_energy_J_m");
-    event.length = reader.number<double>(7, "length_m");
-    event.opening = reader.number<double>(8, "opening_m");
-    event.slip = reader.number<double>(9, "slip_m");
-    event.edge = reader.number<Index>(10, "edge");
-    events.push_back(event);
+    events.push_back(RowReader(file, line, row).event());
   }
   return events;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-//   Δφ = y / M,   Δλ = x / (N cos φ)
+//   Δφ = y / M,   Δλ = x / (N cos φ)      in a level section; in an upright one Δφ = 0 and depth = d0 − y
 //   M = a (1 - e²) / (1 - e² sin² φ)^{3/2},   N = a / (1 - e² sin² φ)^{1/2}
 //
 // Source: any text on geodesy; a and e² of WGS 84 (NIMA TR8350.2, 2000).
@@ -32,7 +32,13 @@ Geographic to_geographic(Vec2 place, const Case::Seismic& reference) {
   const double normal_radius = a / std::sqrt(w2);
   const double meridian_radius = normal_radius * (1.0 - e2) / w2;
 
-  Geographic point{reference.longitude, reference.latitude + place.y / meridian_radius / degree};
+  const bool upright = reference.depth_axis == "y";
+  Geographic point{reference.longitude, reference.latitude, reference.depth};
+  if (upright) {
+    point.depth -= place.y;
+  } else {
+    point.latitude += place.y / meridian_radius / degree;
+  }
   if (cosine > 1e-9) point.longitude += place.x / (normal_radius * cosine) / degree;
   point.longitude = std::remainder(point.longitude, 360.0);
   return point;

@@ -10,9 +10,11 @@ namespace crackle {
 struct Geographic {
   double longitude = 0.0;  ///< [degree], -180 to 180
   double latitude = 0.0;   ///< [degree]
+  double depth = 0.0;      ///< [m], positive down
 };
 
-/// The place on Earth of a point of the run, x east and y north of the case's reference point [m].
+/// The place on Earth of a point of the run, x east of the case's reference point and y north of it or,
+/// with depth_axis "y", above it [m].
 Geographic to_geographic(Vec2 place, const Case::Seismic& reference);
 
 }  // namespace crackle

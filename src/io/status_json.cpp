@@ -19,7 +19,7 @@ std::string status_json(const RunStatus& status) {
   json.add("time_s", status.time);
   json.add("end_time_s", status.end_time);
   json.add("step", status.step);
-  json.add("events", status.events);
+  json.add("broken_elements", status.broken);
   json.add("wall_s", status.wall);
   json.add("wall_left_s", status.wall_left);
   json.add("updated", wall_clock());

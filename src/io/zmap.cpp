@@ -21,7 +21,7 @@ std::string zmap_text(const std::vector<SeismicEvent>& events, const Case& scene
     const std::int64_t second = time.nanosecond / 1'000'000'000;
     text += fmt::format("{}\t{}\t{:.12f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}.{:09}\n", place.longitude,
                         place.latitude, decimal_year(time), static_cast<unsigned>(date.month()),
-                        static_cast<unsigned>(date.day()), event.magnitude, scene.seismic.depth / 1000.0,
+                        static_cast<unsigned>(date.day()), event.magnitude, place.depth / 1000.0,
                         second / 3600, second / 60 % 60, second % 60, time.nanosecond % 1'000'000'000);
   }
   return text;

@@ -98,12 +98,14 @@ struct Case {
     double safety = 0.8;     ///< fraction of the stable time step taken by "auto" [-]
   } run;
 
-  /// Where the local coordinates lie on Earth, for the seismic catalog. x points east; y points
-  /// north and the section is horizontal at `depth`.
+  /// Where the local coordinates lie on Earth, for the seismic catalog. x points east. With depth_axis
+  /// "out_of_plane" the section is level at `depth` and y points north; with "y" it is upright, y points
+  /// up, and depth = `depth` - y.
   struct Seismic {
     double longitude = 0.0;                      ///< of the origin [degree]
     double latitude = 0.0;                       ///< of the origin [degree]
-    double depth = 0.0;                          ///< of the section [m], positive down
+    double depth = 0.0;                          ///< of the origin [m], positive down
+    std::string depth_axis = "out_of_plane";     ///< or "y"
     std::string epoch = "2000-01-01T00:00:00Z";  ///< of simulated time zero, ISO 8601 UTC
     double thickness = 1.0;                      ///< out of plane, turns J/m into J for magnitudes [m]
   } seismic;

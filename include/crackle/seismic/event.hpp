@@ -38,6 +38,8 @@ struct SeismicEvent {
   double moment_magnitude = 0.0;  ///< Mw of moment x thickness
   Index edge = -1;                ///< of the mesh; the first of a slip
   Index edges = 1;                ///< that took part
+
+  friend bool operator==(const SeismicEvent&, const SeismicEvent&) = default;
 };
 
 }  // namespace crackle

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -66,8 +67,8 @@ TEST(QuakeMl, HoldsWhatTheSchemaAsksFor) {
   std::size_t count = 0;
   for (const pugi::xml_node& event : catalog.children("event")) {
     const SeismicEvent& expected = events[count++];
-    expect_children(event, {"type", "typeCertainty", "preferredOriginID", "preferredMagnitudeID", "origin",
-                            "magnitude", "comment"});
+    expect_children(event, {"type", "typeCertainty", "preferredOriginID", "preferredMagnitudeID",
+                            "preferredFocalMechanismID", "origin", "magnitude", "focalMechanism", "comment"});
     EXPECT_EQ(text_of(event, "type"), "induced or triggered event");
     EXPECT_EQ(text_of(event, "typeCertainty"), "known");
     EXPECT_EQ(ids.count(text_of(event, "preferredOriginID")), 1U);
@@ -81,7 +82,19 @@ TEST(QuakeMl, HoldsWhatTheSchemaAsksFor) {
     expect_number(origin, "depth/value", scene.seismic.depth);
     EXPECT_THAT(text_of(origin, "comment/text"), HasSubstr("x_m="));
 
-    const pugi::xml_node magnitude = event.child("magnitude");
+    const pugi::xml_node mechanism = event.child("focalMechanism");
+    EXPECT_EQ(text_of(event, "preferredFocalMechanismID"), mechanism.attribute("publicID").value());
+    const pugi::xml_node moment = mechanism.child("momentTensor");
+    EXPECT_EQ(text_of(moment, "derivedOriginID"), origin.attribute("publicID").value());
+    expect_number(moment, "scalarMoment/value", scene.seismic.thickness * scalar_moment(expected.moment));
+    expect_number(moment, "tensor/Mtt/value", scene.seismic.thickness * expected.moment.yy);
+    const pugi::xml_node mw =
+        event.find_child_by_attribute("magnitude", "publicID", text_of(moment, "momentMagnitudeID").c_str());
+    EXPECT_EQ(text_of(mw, "type"), "Mw");
+    expect_number(mw, "mag/value", expected.moment_magnitude);
+
+    const pugi::xml_node magnitude = event.find_child_by_attribute(
+        "magnitude", "publicID", text_of(event, "preferredMagnitudeID").c_str());
     EXPECT_EQ(!magnitude.empty(), std::isfinite(expected.magnitude));
     if (magnitude.empty()) {
       EXPECT_TRUE(event.child("preferredMagnitudeID").empty());
@@ -95,6 +108,73 @@ TEST(QuakeMl, HoldsWhatTheSchemaAsksFor) {
     EXPECT_THAT(text_of(magnitude, "comment/text"), HasSubstr("(log10(E/J) - 4.8)/1.5"));
   }
   EXPECT_EQ(count, events.size());
+}
+
+// An explosion of 1 N m along x, 2 along y, 3 out of plane and 4 in shear, per metre of 2 m.
+TEST(QuakeMl, TurnsTheTensorToUpSouthEast) {
+  SeismicEvent event;
+  event.moment = {1.0, 2.0, 3.0, 4.0};
+  event.place = {0.0, 7.0};
+  Case scene = sample_case();
+  const auto expect = [&](const std::array<double, 6>& values, double depth, double latitude) {
+    pugi::xml_document document;
+    const pugi::xml_node node =
+        event_parameters(document, catalog_text({event}, scene, "quakeml")).child("event");
+    const pugi::xml_node tensor = node.first_element_by_path("focalMechanism/momentTensor/tensor");
+    const std::array<const char*, 6> names{"Mrr", "Mtt", "Mpp", "Mrt", "Mrp", "Mtp"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      expect_number(tensor, (std::string(names[i]) + "/value").c_str(), values[i]);
+    }
+    expect_number(node, "origin/depth/value", depth);
+    EXPECT_NEAR(std::stod(text_of(node, "origin/latitude/value")), latitude, 1e-12);
+  };
+  scene.seismic.latitude = 0.0;
+  expect({6.0, 4.0, 2.0, 0.0, 0.0, -8.0}, 1500.0, 7.0 / 110574.27582159436);
+  scene.seismic.depth_axis = "y";
+  expect({4.0, 6.0, 2.0, 0.0, 8.0, 0.0}, 1493.0, 0.0);
+  std::istringstream row(catalog_text({event}, scene, "zmap"));
+  std::vector<double> columns(10);
+  for (double& c : columns) row >> c;
+  EXPECT_EQ(columns[6], 1.493) << "km";
+}
+
+// The rules of the published schema for what is written here, as a schema of our own (see its head).
+TEST(QuakeMl, KeepsTheRulesOfTheSchema) {
+  if (std::system("xmllint --version 2>/dev/null") != 0) GTEST_SKIP() << "xmllint is not installed";
+  const ScratchFolder scratch;
+  std::vector<SeismicEvent> events = sample_events(3e-3);
+  events[0].magnitude = -std::numeric_limits<double>::infinity();
+  events[1].moment = {};
+  events[2].kind = EventKind::slip;
+  const std::string text = catalog_text(events, sample_case(), "quakeml");
+  const auto valid = [&](const std::string& document) {
+    std::ofstream(scratch / "events.xml") << document;
+    const std::string command = "xmllint --noout --schema " CRACKLE_SOURCE_DIR
+                                "/tests/unit/io/quakeml_rules/quakeml.xsd " +
+                                (scratch / "events.xml") + " > " + (scratch / "log") + " 2>&1";
+    return std::system(command.c_str()) == 0;
+  };
+  EXPECT_TRUE(valid(text)) << content(scratch / "log");
+  EXPECT_TRUE(valid(catalog_text({}, sample_case(), "quakeml"))) << "no event: " << content(scratch / "log");
+  // what the rules have to catch
+  const auto broken = [&](const std::string& part, const std::string& instead) {
+    std::string changed = text;
+    const std::size_t at = changed.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    if (at != std::string::npos) changed.replace(at, part.size(), instead);
+    return changed;
+  };
+  for (const auto& [part, instead] : std::vector<std::pair<std::string, std::string>>{
+           {"<type>induced or triggered event", "<type>frack"},
+           {"publicID=\"smi:local/", "publicID=\"local/"},
+           {"publicID=\"smi:local/", "publicID=\"smi:lo/"},
+           {"<latitude>", "<x/><latitude>"},
+           {"<mag>", "<mag><uncertainty>much</uncertainty>"},
+           {"T00:00", "T25:00"},
+           {"<depthType>operator assigned", "<depthType>guessed"},
+           {"<Mrt>", "<Mxy>"}}) {
+    EXPECT_FALSE(valid(broken(part, instead))) << part << " -> " << instead;
+  }
 }
 
 TEST(QuakeMl, IsValidWithoutEvents) {

@@ -95,7 +95,7 @@ Case sample_case() {
   scene.stress = {-7.05e6, -4.9e6, 0.0};
   scene.fluid.pump = {{0.0, 2e-3, 0.065}};
   scene.run.end_time = 2e-3;
-  scene.seismic = {7.5, 51.25, 1500.0, "2016-02-29T23:59:59.9990Z", 2.0};
+  scene.seismic = {7.5, 51.25, 1500.0, "out_of_plane", "2016-02-29T23:59:59.9990Z", 2.0};
   return scene;
 }
 
@@ -182,6 +182,10 @@ std::vector<SeismicEvent> sample_events(double time, SampleSize size) {
     event.opening = 5.15e-6;
     event.slip = crack.mode == FailureMode::tensile ? -1e-7 : 1e-5;
     event.edge = edge;
+    event.duration = 2e-6;
+    event.moment =
+        moment_of_jump({16.2e9, 13.8e9}, crack.to - crack.from, event.length, event.opening, event.slip);
+    event.moment_magnitude = moment_magnitude(2.0 * scalar_moment(event.moment));
     events.push_back(event);
   }
   std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
