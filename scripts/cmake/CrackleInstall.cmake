@@ -17,6 +17,8 @@ install(TARGETS crackle EXPORT crackle_targets)
 install(TARGETS crackle_cli)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/crackle" "${PROJECT_BINARY_DIR}/include/crackle"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/scripts/plots" DESTINATION "${CMAKE_INSTALL_DATADIR}/crackle"
+        FILES_MATCHING PATTERN "*.py")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 install(EXPORT crackle_targets NAMESPACE crackle:: FILE crackle-targets.cmake DESTINATION "${package_folder}")

@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 import look
 from run_data import MODES
 
-MODE_FILLS = {1: "#5b6873", 2: look.MODE_COLORS[2], 3: look.MODE_COLORS[3]}
+MODE_FILLS = {**look.MODE_COLORS, 1: "#5b6873"}
 
 
 def draw(run, path):
@@ -19,15 +19,9 @@ def draw(run, path):
                                 figure.add_subplot(layout[1, 1]))
     time = run.events.get("time_s", np.zeros(0))
     look.set_titles(figure, run, f"{len(time):,} seismic events")
-    place.set_xlabel("x [mm]")
-    place.set_ylabel("y [mm]")
-    place.set_title("Where", loc="left", fontsize=10)
-    over_time.set_xlabel("time [ms]")
-    over_time.set_ylabel("magnitude")
-    over_time.set_title("Magnitudes over time", loc="left", fontsize=10)
-    counts.set_xlabel("magnitude  (log₁₀ E[J] − 4.8) / 1.5")
-    counts.set_ylabel("events")
-    counts.set_title("How many of which magnitude", loc="left", fontsize=10)
+    look.name_axes(place, "Where", "x [mm]", "y [mm]")
+    look.name_axes(over_time, "Magnitudes over time", "time [ms]", "magnitude")
+    look.name_axes(counts, "How many of which magnitude", "magnitude  (log₁₀ E[J] − 4.8) / 1.5", "events")
     if len(time) == 0:
         for axes in (place, over_time, counts):
             look.say_empty(axes, "no events")
@@ -38,8 +32,13 @@ def draw(run, path):
     look.save(figure, path)
 
 
-def of_mode(run, name):
-    return run.events["mode"] == name
+def groups(run):
+    """{key of the look: (name, which events)}: the modes of breaking, and slips of joints where there are any."""
+    slips = run.slips()
+    found = {mode: (name, (run.events["mode"] == name) & ~slips) for mode, name in MODES.items()}
+    if slips.any():
+        found[look.SLIP] = ("slip of a joint", slips)
+    return found
 
 
 def with_energy(run):
@@ -60,8 +59,7 @@ def draw_map(figure, axes, run):
     time = events["time_s"] * 1e3
     sizes = marker_sizes(events["magnitude"])
     span = (time.min(), max(time.max(), time.min() + 1e-9))
-    for mode, name in MODES.items():
-        chosen = of_mode(run, name)
+    for mode, (_, chosen) in groups(run).items():
         dots = axes.scatter(events["x_m"][chosen] * 1e3, events["y_m"][chosen] * 1e3, s=sizes[chosen], c=time[chosen],
                             vmin=span[0], vmax=span[1], cmap="plasma", marker=look.MODE_MARKERS[mode],
                             edgecolors=look.INK, linewidths=0.3, alpha=0.9, zorder=2)
@@ -71,14 +69,14 @@ def draw_map(figure, axes, run):
     figure.colorbar(dots, cax=axes.inset_axes([1.025, 0.0, 0.03, 1.0])).set_label("time [ms]")
     handles = [Line2D([], [], color="none", marker=look.MODE_MARKERS[mode], markerfacecolor="#b9c1c8",
                       markeredgecolor=look.INK, markeredgewidth=0.5, markersize=6,
-                      label=f"{name} ({int(of_mode(run, name).sum()):,})") for mode, name in MODES.items()]
+                      label=f"{name} ({int(chosen.sum()):,})") for mode, (name, chosen) in groups(run).items()]
     axes.legend(handles=handles, loc="best", frameon=True, framealpha=0.9, edgecolor="none",
                 title="size by magnitude", title_fontsize=8)
 
 
 def draw_magnitudes(axes, run):
-    for mode, name in MODES.items():
-        chosen = of_mode(run, name) & with_energy(run)
+    for mode, (name, chosen) in groups(run).items():
+        chosen = chosen & with_energy(run)
         axes.scatter(run.events["time_s"][chosen] * 1e3, run.events["magnitude"][chosen], s=11,
                      marker=look.MODE_MARKERS[mode], color=MODE_FILLS[mode], alpha=0.75, linewidths=0, label=name)
 
@@ -91,9 +89,10 @@ def draw_counts(axes, run):
     bins = np.arange(np.floor(magnitude.min() * 5.0) / 5.0, magnitude.max() + 0.2, 0.2)
     if len(bins) < 2:
         bins = bins[0] + np.array([0.0, 0.2])
-    parts = [run.events["magnitude"][of_mode(run, name) & with_energy(run)] for name in MODES.values()]
-    axes.hist(parts, bins=bins, stacked=True, color=[MODE_FILLS[mode] for mode in MODES], label=list(MODES.values()),
-              edgecolor="white", linewidth=0.6)
+    shown = groups(run)
+    parts = [run.events["magnitude"][chosen & with_energy(run)] for _, chosen in shown.values()]
+    axes.hist(parts, bins=bins, stacked=True, color=[MODE_FILLS[mode] for mode in shown],
+              label=[name for name, _ in shown.values()], edgecolor="white", linewidth=0.6)
     median = np.median(magnitude)
     axes.axvline(median, color=look.INK, linewidth=1.0, linestyle=(0, (4, 2)))
     axes.set_title(f"median {median:.2f}", loc="right", fontsize=9, color="#5b6873")

@@ -12,8 +12,9 @@ INK = "#22303c"
 FAINT = "#8a97a3"
 ACCENT = "#c0392b"
 WATER = "#1f6fb2"
-MODE_COLORS = {1: "#111111", 2: "#d7263d", 3: "#e08e00"}  # tensile, shear, mixed
-MODE_MARKERS = {1: "o", 2: "^", 3: "s"}
+SLIP = 0  # of a joint, beside the modes of breaking
+MODE_COLORS = {1: "#111111", 2: "#d7263d", 3: "#e08e00", SLIP: "#2a7f62"}  # tensile, shear, mixed
+MODE_MARKERS = {1: "o", 2: "^", 3: "s", SLIP: "D"}
 
 matplotlib.rcParams.update({
     "figure.dpi": 100, "savefig.dpi": 150, "savefig.facecolor": "white",
@@ -46,6 +47,12 @@ def set_titles(figure, run, what):
 def below_titles(figure):
     """Top of the room left for the axes, as a share of the figure."""
     return 1.0 - 0.70 / figure.get_size_inches()[1]
+
+
+def name_axes(axes, title, x, y):
+    axes.set_title(title, loc="left", fontsize=10)
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
 
 
 def say_empty(axes, text):

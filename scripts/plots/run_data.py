@@ -158,6 +158,11 @@ class Run:
                   for entry in root.iter("DataSet")]
         return [(time, path) for time, path in frames if path.is_file()]
 
+    def slips(self):
+        """Which events are slips of joints rather than breaking."""
+        count = len(self.events.get("time_s", ()))
+        return self.events.get("kind", np.full(count, "breaking")) == "slip"
+
     def breakdown(self):
         """(time [s], pressure [Pa]) of the largest wellbore pressure; None without a history.
 

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
+#include "catalog_figures.hpp"
+#include "catalog_summary.hpp"
 #include "commands.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/io/output.hpp"
@@ -18,24 +20,33 @@
 namespace crackle {
 namespace {
 
-void print_summary(const std::string& folder, const std::vector<SeismicEvent>& events, const Case& scene) {
-  fmt::print("{}: {} event{}\n", folder, events.size(), events.size() == 1 ? "" : "s");
-  if (events.empty()) return;
-  std::array<int, 4> by_mode{};
-  double low = events.front().magnitude, high = low, length = 0.0;
-  for (const SeismicEvent& e : events) {
-    ++by_mode[static_cast<std::size_t>(e.mode)];
-    low = std::min(low, e.magnitude);
-    high = std::max(high, e.magnitude);
-    length += e.length;
+/// Events reach as far as four edges, and as long as a shear wave takes for that.
+ClusterRule cluster_rule(const CatalogOptions& options, const std::vector<SeismicEvent>& events,
+                         const Case& scene) {
+  ClusterRule rule;
+  if (!options.radius.empty()) {
+    rule.radius = quantity("--radius", options.radius, "m");
+  } else if (!events.empty()) {
+    std::vector<double> lengths;
+    for (const SeismicEvent& e : events) lengths.push_back(e.length / e.edges);
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    rule.radius = 4.0 * *middle;
   }
-  fmt::print("  {} tensile, {} shear, {} mixed; {:.4g} m broken\n", by_mode[1], by_mode[2], by_mode[3],
-             length);
-  fmt::print("  magnitudes {:.2f} to {:.2f} (for {:g} m of thickness)\n", low, high, scene.seismic.thickness);
-  const auto [first, last] = std::minmax_element(
-      events.begin(), events.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
-  fmt::print("  from {:.6g} to {:.6g} ms\n", 1e3 * first->time, 1e3 * last->time);
-  fmt::print("As a file: crackle catalog {} --to csv|quakeml|zmap -o FILE\n", folder);
+  const double shear_modulus = 0.5 * scene.rock.young_modulus / (1.0 + scene.rock.poisson_ratio);
+  rule.window = options.window.empty() ? rule.radius / std::sqrt(shear_modulus / scene.rock.density)
+                                       : quantity("--window", options.window, "s");
+  for (const auto& [name, value] : {std::pair{"--radius", rule.radius}, {"--window", rule.window}}) {
+    if (!(value >= 0.0)) throw CaseError(fmt::format("{}: has to be zero or positive", name));
+  }
+  return rule;
+}
+
+std::vector<SeismicEvent> clustered(const std::vector<SeismicEvent>& events, const ClusterRule& rule,
+                                    double thickness) {
+  std::vector<SeismicEvent> wholes;
+  for (const Cluster& c : cluster_events(events, rule, thickness)) wholes.push_back(as_event(c, events));
+  return wholes;
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -58,10 +69,14 @@ int catalog_command(const CatalogOptions& options) {
   if (options.format.empty() && !options.output.empty()) {
     throw CaseError("-o: say the format of the file as well: --to csv, quakeml or zmap");
   }
-  const std::vector<SeismicEvent> events = read_events_csv((folder / "events.csv").string());
+  std::vector<SeismicEvent> events = read_events_csv((folder / "events.csv").string());
   const Case scene = load_case((folder / "resolved.toml").string(), {}, {});
+  const ClusterRule rule = cluster_rule(options, events, scene);
+  if (options.clustered) events = clustered(events, rule, scene.seismic.thickness);
   if (options.format.empty()) {
-    print_summary(options.folder, events, scene);
+    fmt::print("{}", catalog_summary(options.folder, events, scene, rule));
+    if (options.figures) fmt::print("{}", draw_catalog(options.folder, b_value_of(events)));
+    fmt::print("As a file: crackle catalog {} --to csv|quakeml|zmap -o FILE\n", options.folder);
     return 0;
   }
   const std::string text = catalog_text(events, scene, options.format);

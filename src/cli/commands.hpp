@@ -42,6 +42,9 @@ struct CatalogOptions {
   std::string folder;  ///< of a run
   std::string format;  ///< "csv", "quakeml", "zmap"; empty: a summary
   std::string output;  ///< file; empty: the terminal
+  bool clustered = false;
+  std::string radius, window;  ///< of clusters; empty: from the edges and the shear wave
+  bool figures = true;         ///< with a summary
 };
 
 struct DfitOptions {

@@ -134,6 +134,15 @@ class CommandLine {
     command->add_option("--to", catalog_.format, "csv, quakeml or zmap (default: a summary)")
         ->type_name("FORMAT");
     command->add_option("-o,--output", catalog_.output, "File (default: the terminal)")->type_name("FILE");
+    command->add_flag("--clustered", catalog_.clustered, "Events near in space and time taken as one");
+    command
+        ->add_option("--radius", catalog_.radius,
+                     "Reach of an event to another of its cluster (default: 4 edges)")
+        ->type_name("LENGTH");
+    command
+        ->add_option("--window", catalog_.window, "The same in time (default: radius over shear wave speed)")
+        ->type_name("TIME");
+    command->add_flag("!--no-figures", catalog_.figures, "Do not draw beside the summary");
     command->callback([this] { code_ = crackle::catalog_command(catalog_); });
   }
 

@@ -65,6 +65,11 @@ Cluster sum(const std::vector<SeismicEvent>& events, std::vector<Index> members,
   return c;
 }
 
+FailureMode mode_of(SourceType type) {
+  if (type == SourceType::shear) return FailureMode::shear;
+  return type == SourceType::mixed ? FailureMode::mixed : FailureMode::tensile;
+}
+
 }  // namespace
 
 std::vector<Cluster> cluster_events(const std::vector<SeismicEvent>& events, const ClusterRule& rule,
@@ -79,6 +84,33 @@ std::vector<Cluster> cluster_events(const std::vector<SeismicEvent>& events, con
   clusters.reserve(members.size());
   for (auto& [first, set] : members) clusters.push_back(sum(events, std::move(set), thickness));
   return clusters;
+}
+
+SeismicEvent as_event(const Cluster& cluster, const std::vector<SeismicEvent>& events) {
+  SeismicEvent sum;
+  sum.time = cluster.time;
+  sum.duration = cluster.duration;
+  sum.place = cluster.place;
+  sum.kind = EventKind::slip;
+  sum.mode = mode_of(source_type(cluster.opened, cluster.slid));
+  sum.energy = cluster.energy;
+  sum.magnitude = cluster.magnitude;
+  sum.length = cluster.length;
+  sum.opening = cluster.opened / cluster.length;
+  sum.slip = cluster.slid / cluster.length;
+  sum.moment = cluster.moment;
+  sum.moment_magnitude = cluster.moment_magnitude;
+  sum.edge = events[at(cluster.events.front())].edge;
+  sum.edges = 0;
+  for (const Index i : cluster.events) {
+    const SeismicEvent& e = events[at(i)];
+    if (e.kind == EventKind::breaking) sum.kind = EventKind::breaking;
+    sum.fracture_energy += e.fracture_energy;
+    sum.friction_energy += e.friction_energy;
+    sum.stress_drop += e.stress_drop * e.length / cluster.length;
+    sum.edges += e.edges;
+  }
+  return sum;
 }
 
 }  // namespace crackle

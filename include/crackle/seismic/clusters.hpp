@@ -43,4 +43,8 @@ struct Cluster {
 std::vector<Cluster> cluster_events(const std::vector<SeismicEvent>& events, const ClusterRule& rule,
                                     double thickness);
 
+/// A cluster as one event of a catalog: opening and slip are means over its length, the mode that of its
+/// motion, the kind slip if all of it is.
+SeismicEvent as_event(const Cluster& cluster, const std::vector<SeismicEvent>& events);
+
 }  // namespace crackle

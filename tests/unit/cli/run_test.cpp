@@ -31,10 +31,16 @@ TEST_F(RunCommand, FromCaseToCatalog) {
 
   const std::string events = read_text(out + "/events.csv");
   ASSERT_GT(lines(events), 3) << "the case breaks";
-  const Outcome summary = crackle({"catalog", out});
+  const Outcome summary = crackle({"catalog", out, "--no-figures"});
   EXPECT_EQ(summary.code, 0) << summary.err;
-  EXPECT_THAT(summary.out, AllOf(HasSubstr(std::to_string(lines(events) - 1) + " events"),
-                                 HasSubstr("tensile"), HasSubstr("magnitudes"), HasSubstr("ms")));
+  EXPECT_THAT(summary.out,
+              AllOf(HasSubstr(std::to_string(lines(events) - 1) + " events"), HasSubstr("tensile"),
+                    HasSubstr("magnitudes"), HasSubstr("clusters"), HasSubstr("DC"), HasSubstr("b")));
+  const Outcome all_in_one =
+      crackle({"catalog", out, "--clustered", "--radius", "10 m", "--window", "1 s", "--to", "csv"});
+  EXPECT_EQ(lines(all_in_one.out), 2) << all_in_one.err;
+  expect_refusal(crackle({"catalog", out, "--radius", "10 s"}), 2, "--radius");
+  expect_refusal(crackle({"catalog", out, "--window=-1"}), 2, "--window");
   EXPECT_EQ(crackle({"catalog", out, "--to", "csv"}).out, events);
   EXPECT_EQ(lines(crackle({"catalog", out, "--to", "zmap"}).out), lines(events) - 1);
   ASSERT_EQ(crackle({"catalog", out, "--to", "quakeml", "-o", path("a.xml")}).code, 0);

@@ -42,6 +42,13 @@ TEST(Clusters, AChainIsOne) {
   EXPECT_NEAR(c.opened, 0.03 * 5e-6, 1e-18);
   EXPECT_NEAR(c.dissipated, 0.15, 1e-14);
   EXPECT_NEAR(c.magnitude, magnitude_of_energy(0.1 * 2.0), 1e-12);
+  const SeismicEvent whole = as_event(c, events);
+  EXPECT_EQ(whole.edges, 10);
+  EXPECT_EQ(whole.kind, EventKind::breaking);
+  EXPECT_EQ(whole.mode, FailureMode::tensile);
+  EXPECT_NEAR(whole.opening, 5e-6, 1e-18);
+  EXPECT_NEAR(whole.fracture_energy, 0.15, 1e-14);
+  EXPECT_EQ(whole.moment, c.moment);
   EXPECT_NEAR(c.moment_magnitude, moment_magnitude(10.0 * scalar_moment(events[0].moment) * 2.0), 1e-12);
 }
 
