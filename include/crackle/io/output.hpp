@@ -84,8 +84,8 @@ struct RunStatus {
   double end_time = 0.0;  ///< simulated, at the end [s]
   std::int64_t step = 0;
   std::int64_t broken = 0;  ///< elements
-  double wall = 0.0;       ///< since the start [s]
-  double wall_left = 0.0;  ///< estimate [s]; NaN where there is none yet (written as null)
+  double wall = 0.0;        ///< since the start [s]
+  double wall_left = 0.0;   ///< estimate [s]; NaN where there is none yet (written as null)
 };
 
 class AppendedFile;
