@@ -13,7 +13,8 @@
 //   M_dc = ½ (M1 − M3 − |M1 + M3 − 2 M2|)    M = |M_iso| + |M_clvd| + M_dc
 // as shares of M. A tensile crack has iso = (λ + 2μ/3)/(λ + 2μ), clvd = (4μ/3)/(λ + 2μ), dc = 0.
 //
-// Moments are per metre of thickness, as every extensive quantity of a 2D model.
+// Moments are per metre of thickness, as every extensive quantity of a 2D model. Limits: of bedded rock the
+// run takes λ = c12 and μ = c66 of its plane-strain stiffness, as if it were isotropic.
 #pragma once
 
 #include "crackle/core/vec2.hpp"
