@@ -69,7 +69,7 @@ class MassScaled {
   void add_element(Index e, Field& y) const {
     if (state_.cohesive.status[at(e)] == CohesiveStatus::released) return;
     const auto& n = state_.cohesive.nodes[at(e)];
-    const double third = cohesive_->material().penalty / 3.0;
+    const double third = cohesive_->material(state_, e).penalty / 3.0;
     const Vec2 jump0 = scaled_[at(n[2])] - scaled_[at(n[0])], jump1 = scaled_[at(n[3])] - scaled_[at(n[1])];
     const Vec2 f0 = third * (jump0 + 0.5 * jump1), f1 = third * (0.5 * jump0 + jump1);
     y[at(n[0])] -= f0;
