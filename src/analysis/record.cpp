@@ -103,7 +103,7 @@ void check_holes(const PressureRecord& record) {
   }
 }
 
-/// Mean rate over a time that ends at shut-in, by trapezia.
+/// Injected between two times, from a sample on [m3 or m2].
 double volume_between(const PressureRecord& record, std::size_t first, double from, double to) {
   double volume = 0.0;
   for (std::size_t i = first; i + 1 < record.time.size() && record.time[i] < to; ++i) {
@@ -117,7 +117,6 @@ double volume_between(const PressureRecord& record, std::size_t first, double fr
 
 Injection describe(const PressureRecord& record, std::size_t first, const Stretch& rest, double shut_in) {
   Injection found;
-  found.first_sample = first;
   found.start = record.time[first];
   found.shut_in = shut_in;
   found.shut_in_sample = rest.first;

@@ -35,9 +35,8 @@ void check_record(const PressureRecord& record);
 
 /// One injection and the fall-off that follows it.
 struct Injection {
-  double start = 0.0;    ///< when pumping began [s]
-  double shut_in = 0.0;  ///< when it ended [s]
-  std::size_t first_sample = 0;
+  double start = 0.0;               ///< when pumping began [s]
+  double shut_in = 0.0;             ///< when it ended [s]
   std::size_t shut_in_sample = 0;   ///< first sample at rest
   std::size_t end_sample = 0;       ///< one past the last sample of the fall-off
   double volume = 0.0;              ///< injected from start to shut-in [m3 or m2]

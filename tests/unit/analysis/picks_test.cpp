@@ -206,6 +206,16 @@ TEST(Picks, LeakOffTypes) {
   EXPECT_EQ(type([](double) { return 1.0; }), "normal");
   EXPECT_EQ(type([](double x) { return x < 0.25 ? 2.5 - 6.0 * x : 1.0; }), "pressure_dependent");
   EXPECT_EQ(type([](double x) { return 1.0 + 0.25 / (x + 0.05); }), "tip_extension");
+  EXPECT_EQ(type([](double x) { return x < 0.3 ? 1.0 : 1.0 + 4.0 * (x - 0.3); }), "height_recession");
+}
+
+TEST(Picks, PumpTimeSinceBreakdown) {
+  EXPECT_DOUBLE_EQ(crackle::analyse_dfit(simulated_record(), simulated_settings(), {}).fall_off.pump_time,
+                   207.0);
+  EXPECT_NEAR(crackle::analyse_dfit(simulated_record(), {}, {}).fall_off.pump_time, 240.0, 1e-9);
+  auto rising = simulated_record();
+  for (std::size_t i = 0; i < 240; ++i) rising.pressure[i] = 44.6e6 + 100.0 * static_cast<double>(i);
+  EXPECT_THROW(crackle::analyse_dfit(rising, simulated_settings(), {}), crackle::CaseError);
 }
 
 // The picks at the points that were published for a simulated test whose truth is known: S_h 44.28 MPa,
