@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "crackle/analysis/picks.hpp"
 #include "pick.hpp"
@@ -21,23 +22,37 @@ struct Rise {
 double at_most(const FallOff& f, std::size_t i) { return f.by_g.value[i] + 4.0 * f.by_g.error[i]; }
 double at_least(const FallOff& f, std::size_t i) { return f.by_g.value[i] - 4.0 * f.by_g.error[i]; }
 
-/// The rise that lifts G dp/dG most above the line through the origin with the least -dp/dG before it.
-/// Early swings of the well, at small G, so weigh little; uncertain slopes are taken at their worse bound,
-/// and not at all where their error is above a quarter of the mean -dp/dG of the whole fall-off.
+/// Whether pressure never comes back to what it is at each point, but for noise.
+std::vector<bool> falls_for_good(const FallOff& f) {
+  std::vector<bool> for_good(f.size(), true);
+  double highest = f.pressure.back();
+  for (std::size_t i = f.size(); i-- > 0;) {
+    for_good[i] = highest <= f.pressure[i] + 4.0 * f.point_error(i);
+    highest = std::max(highest, f.pressure[i]);
+  }
+  return for_good;
+}
+
+/// The rise that lifts G dp/dG most above the line through the origin with the least -dp/dG before it, since
+/// a tenth of its G. Swings of the fluid in the well come to nothing: they are early, and pressure comes
+/// back. Uncertain slopes are taken at their worse bound, and not at all where their error is above a quarter
+/// of the mean -dp/dG of the whole fall-off.
 Rise largest_rise(const FallOff& f) {
   const double known = 0.25 * (f.pressure.front() - f.pressure.back()) / (f.g.back() - f.g.front());
+  const std::vector<bool> for_good = falls_for_good(f);
   Rise best;
   double most = 0.0;
-  std::size_t low = 0;
-  for (std::size_t i = 1; i + 1 < f.size(); ++i) {
-    if (f.by_g.error[i] > known) continue;
-    if (low == 0) low = i;
+  for (std::size_t i = 2; i + 1 < f.size(); ++i) {
+    if (f.by_g.error[i] > known || !for_good[i]) continue;
+    std::size_t low = i;
+    for (std::size_t j = i; j-- > 1 && f.g[j] >= 0.1 * f.g[i];) {
+      if (f.by_g.error[j] <= known && at_most(f, j) < at_most(f, low)) low = j;
+    }
     const double excess = f.g[i] * (at_least(f, i) - at_most(f, low));
-    if (excess > most) {
+    if (low < i && excess > most) {
       most = excess;
       best = {low, i};
     }
-    if (at_most(f, i) < at_most(f, low)) low = i;
   }
   for (std::size_t i = best.top; i > best.low; --i) {
     if (at_least(f, i) > at_least(f, best.top)) best.top = i;

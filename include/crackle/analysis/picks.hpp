@@ -57,9 +57,10 @@ Pick pick_isip(const FallOff& f, const Pick& contact);
 /// rise where -dp/dG is not above its least value by more than three standard errors, 5 % of itself or
 /// 1 % of the rise, moved to where pressure leaves the line through the points before it, at most by the
 /// half window by which the derivative sees ahead.
-/// Points where the error of -dp/dG is above a quarter of its mean over the whole fall-off are not asked.
-/// None where -dp/dG does not rise by a fifth and eight standard errors, or where pressure falls by less than
-/// 2 % of the fall-off meanwhile.
+/// The minimum is sought from a tenth of the rise's G on, and pressure does not come back after the rise:
+/// swings of the fluid in the well are no contact. Points where the error of -dp/dG is above a quarter of its
+/// mean over the whole fall-off are not asked. None where -dp/dG does not rise by a fifth and eight standard
+/// errors, or where pressure falls by less than 2 % of the fall-off meanwhile.
 Pick pick_contact(const FallOff& f);
 
 /// Last point where G dp/dG over G is within a tenth of its tangent from the origin (Barree, Barree and Craig

@@ -235,6 +235,35 @@ TEST(Picks, SimulatedTest) {
   EXPECT_EQ(a.pick("leak_off_type").text, "tip_extension");         // it does extend, from 40 to 43.5 m
 }
 
+/// Adds what the well does after shut-in: friction near it that fades, and swings of its fluid.
+crackle::PressureRecord with_well(crackle::PressureRecord record, double shut_in) {
+  for (std::size_t i = 0; i < record.time.size(); ++i) {
+    const double dt = record.time[i] - shut_in;
+    if (dt < 0.0) continue;
+    record.pressure[i] += 3.3e6 * std::exp(-dt / 3.0) + 0.5e6 * std::exp(-dt / 15.0) * std::cos(1.5 * dt);
+  }
+  return record;
+}
+
+// Near-well friction makes an apparent ISIP 3.3 MPa too high; swings make -dp/dG negative and high again.
+TEST(Picks, WellAfterShutIn) {
+  const auto quiet = with_noise(simulated_record(), 1e3, 1);
+  const auto calm = crackle::analyse_dfit(quiet, simulated_settings(), simulated_inputs()),
+             swings =
+                 crackle::analyse_dfit(with_well(quiet, 240.0), simulated_settings(), simulated_inputs());
+  for (const char* name : {"isip", "contact_compliance", "closure_tangent", "reservoir_pressure"}) {
+    std::printf("%s moves by %.2f kPa\n", name, 1e-3 * (value(swings, name) - value(calm, name)));
+    EXPECT_NEAR(value(swings, name), value(calm, name), 1e3);
+  }
+  CarterTest open;
+  open.closure = 0.0;
+  open.leak_off_coefficient = 5e-7;
+  const auto record = record_of(open, sampling(1.0, 0.01, 1e5));
+  const auto none = crackle::analyse_dfit(with_well(with_noise(record, 1e3, 1), 310.0), {}, {});
+  EXPECT_FALSE(none.pick("contact_compliance").found()) << none.pick("contact_compliance").method;
+  EXPECT_FALSE(none.pick("closure_tangent").found()) << none.pick("closure_tangent").method;
+}
+
 TEST(Picks, SimulatedTestWithNoise) {
   const auto quiet = simulated_record();
   const double truth =
