@@ -183,6 +183,13 @@ int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folde
     return Progress::Now{simulation.state().time, simulation.wellbore_pressure(), simulation.state().step,
                          tally.broken()};
   };
+  const auto note = [&](const std::vector<SeismicEvent>& happened) {
+    for (const SeismicEvent& e : happened) {
+      folder.append_event(e);
+      events.push_back(e);
+      tally.event(e);
+    }
+  };
   std::string exit = "done";
   int code = 0;
   double loop_wall = 0.0;
@@ -234,11 +241,7 @@ int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folde
       } else {
         simulation.step(now_dt);
       }
-      for (const SeismicEvent& e : simulation.new_events()) {
-        folder.append_event(e);
-        events.push_back(e);
-        tally.event(e);
-      }
+      note(simulation.new_events());
       tally.pressure(time, pressure, now_dt);
       progress.show(now());
       status.show(now());
@@ -249,7 +252,9 @@ int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folde
     folder.log(exit);
     throw;
   }
-  if (interrupted != 0) {
+  if (interrupted == 0) {
+    note(simulation.end_slips());
+  } else {
     exit = "interrupted";
     code = static_cast<int>(ExitCode::interrupted);
   }

@@ -81,6 +81,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     s.pump = Pump(std::move(stages));
   }
   s.thickness = scene.seismic.thickness;
+  s.slip_rate = scene.seismic.slip_rate;
   return s;
 }
 

@@ -126,16 +126,6 @@ CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* 
   }
 }
 
-double kinetic_energy(const State& state, const std::array<Index, 4>& nodes) {
-  double sum = 0.0;
-  for (const Index n : nodes) {
-    if (state.inverse_mass[at(n)] > 0.0) {
-      sum += 0.5 * dot(state.velocity[at(n)], state.velocity[at(n)]) / state.inverse_mass[at(n)];
-    }
-  }
-  return sum;
-}
-
 }  // namespace
 
 Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, std::vector<CohesiveMaterial> materials)
@@ -184,6 +174,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   const std::size_t i = at(h.element);
   if (c.status[i] == CohesiveStatus::released) {  // general contact has taken over
     c.force[i] = {};
+    h.slid = h.rubbed = 0.0;
     return;
   }
   const double length = norm(c.direction[i]);
@@ -211,9 +202,11 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     h.break_time = state.time;
   }
   double fracture = 0.0, sliding = 0.0, friction = 0.0;
+  h.slid = 0.0;
   for (std::size_t q = 0; q < 3; ++q) {
     const CohesivePoint& p = h.point[q];
     if (p.damage == 0.0) continue;
+    h.slid += weight[q] / length * (p.plastic_slip - old[q].plastic_slip);
     // Trapezoidal work of the step is the work the integrator does (energies at full steps).
     const double d_slip = p.slip - old[q].slip;
     const double normal_work = 0.5 * (p.normal + old[q].normal) * (p.opening - old[q].opening);
@@ -234,14 +227,15 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   }
   if (yielding && h.yield_time < 0.0) {
     h.yield_time = state.time;
-    h.kinetic_at_yield = kinetic_energy(state, c.nodes[i]);
+    h.kinetic_at_yield = face_kinetic_energy(state, h.element);
   }
   if (!was_broken && yielding) {
-    h.kinetic_rise = std::max(h.kinetic_rise, kinetic_energy(state, c.nodes[i]) - h.kinetic_at_yield);
+    h.kinetic_rise = std::max(h.kinetic_rise, face_kinetic_energy(state, h.element) - h.kinetic_at_yield);
   }
   h.fracture_energy += fracture;
   h.sliding_work += sliding;
   h.friction_energy += friction;
+  h.rubbed = friction;
   sum.fracture += fracture;
   sum.friction += friction;
   const auto& p = h.point;

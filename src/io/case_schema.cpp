@@ -13,6 +13,7 @@ namespace {
 
 const Quantity plain{"a plain number", {"1"}, "0.25"};
 const Quantity length{"a length", {"m"}, "\"3 mm\""};
+const Quantity speed{"a speed", {"m/s"}, "\"1 cm/s\""};
 const Quantity duration{"a time", {"s"}, "\"1.2e-3 s\""};
 const Quantity density{"a density", {"kg/m3"}, "\"2700 kg/m3\""};
 const Quantity pressure{"a pressure", {"Pa"}, "\"35 MPa\""};
@@ -156,6 +157,7 @@ std::vector<TableSpec> make_tables() {
     }},
     {"seismic", {
       number("thickness", slot<&C::seismic, &C::Seismic::thickness>(), length, positive, Need::never, "out of plane, for the energy of events"),
+      number("slip_rate", slot<&C::seismic, &C::Seismic::slip_rate>(), speed, positive, Need::never, "at which the slip of a joint is an event"),
     }},
     {"seismic.reference", {
       number("longitude", slot<&C::seismic, &C::Seismic::longitude>(), degrees, east, Need::never, "of the origin, east positive"),

@@ -81,6 +81,15 @@ std::vector<Vec2> geostatic_displacement(const Scene& scene, const Bulk& bulk) {
 
 }  // namespace
 
+double Simulation::longest_joint_edge(const Mesh& mesh) {
+  double longest = 0.0;
+  for (const Edge& edge : mesh.edges) {
+    if (edge.joint < 0) continue;
+    longest = std::max(longest, norm(mesh.vertices[at(edge.vertex[1])] - mesh.vertices[at(edge.vertex[0])]));
+  }
+  return longest;
+}
+
 Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)),
       bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density, scene_.stress,
@@ -328,6 +337,15 @@ void Simulation::move_nodes(double dt) {
   for (const double p : power) state_.dissipation.viscous += dt * p;
 }
 
+void Simulation::listen_to_slips() {
+  // Quiet for as long as a shear wave takes along three of the longest edges.
+  const double quiet = 3.0 * longest_joint_edge_ / wave_speeds(scene_.stiffness, scene_.density).s;
+  const SlipRule rule{scene_.slip_rate, 0.5 * scene_.slip_rate, quiet};
+  const auto ended =
+      track_slip(state_.slips, sliding_edges(state_), {state_.time, state_.time_step}, rule, medium());
+  new_events_.insert(new_events_.end(), ended.begin(), ended.end());
+}
+
 void Simulation::advance(double dt, Energies* account) {
   stopwatch_.start();
   new_events_.clear();
@@ -341,11 +359,14 @@ void Simulation::advance(double dt, Energies* account) {
     stopwatch_.lap(Stopwatch::contact);
   }
   if (cohesive_ && !cohesive_->newly_broken().empty()) {
-    new_events_ = listen(state_, cohesive_->newly_broken(),
-                         {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness});
+    new_events_ = listen(state_, cohesive_->newly_broken(), medium());
     stopwatch_.lap(Stopwatch::events);
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
     stopwatch_.lap(Stopwatch::fluid);
+  }
+  if (longest_joint_edge_ > 0.0 && state_.time > 0.0) {  // what slid before was the geostatic stage
+    listen_to_slips();
+    stopwatch_.lap(Stopwatch::events);
   }
   if (account != nullptr) {
     *account = potential_energies();

@@ -212,4 +212,28 @@ std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
   return partings;
 }
 
+double face_kinetic_energy(const State& state, Index element) {
+  const auto area = [&](Index corner) {
+    const Index c = corner / 3 * 3;
+    const Vec2 x0 = state.reference(c);
+    return cross(state.reference(c + 1) - x0, state.reference(c + 2) - x0);
+  };
+  // A node's mass is its corners', each in proportion to the area of its triangle.
+  const auto kinetic = [&](Index corner) {
+    const std::size_t node = at(state.node_of_corner[at(corner)]);
+    if (state.inverse_mass[node] == 0.0) return 0.0;
+    const double whole = 0.5 * dot(state.velocity[node], state.velocity[node]) / state.inverse_mass[node];
+    if (state.node_size[node] == 1) return whole;
+    double sum = 0.0;
+    for (Index j = 0; j < state.node_size[node]; ++j) {
+      sum += area(state.node_corners[at(state.node_first[node] + j)]);
+    }
+    return whole * area(corner) / sum;
+  };
+  const Edge& edge = state.mesh->edges[at(state.cohesive.edge[at(element)])];
+  const Index a = 3 * edge.triangle[0], b = 3 * edge.triangle[1];
+  return kinetic(a + edge.side[0]) + kinetic(a + (edge.side[0] + 1) % 3) +
+         kinetic(b + (edge.side[1] + 1) % 3) + kinetic(b + edge.side[1]);
+}
+
 }  // namespace crackle

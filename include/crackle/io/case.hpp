@@ -108,6 +108,7 @@ struct Case {
     std::string depth_axis = "out_of_plane";     ///< or "y"
     std::string epoch = "2000-01-01T00:00:00Z";  ///< of simulated time zero, ISO 8601 UTC
     double thickness = 1.0;                      ///< out of plane, turns J/m into J for magnitudes [m]
+    double slip_rate = 0.01;                     ///< at which the slip of a joint is an event [m/s]
   } seismic;
 
   struct Output {

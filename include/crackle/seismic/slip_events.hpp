@@ -25,6 +25,7 @@
 #include "crackle/seismic/event.hpp"
 #include "crackle/seismic/listener.hpp"
 #include "crackle/state/slip_memory.hpp"
+#include "crackle/state/state.hpp"
 
 namespace crackle {
 
@@ -61,6 +62,10 @@ struct StepTime {
 /// @throws std::invalid_argument when the edges are not in ascending order
 std::vector<SeismicEvent> track_slip(SlipMemory& memory, std::span<const SlidingEdge> edges, StepTime clock,
                                      const SlipRule& rule, const SeismicMedium& medium);
+
+/// What track_slip() has to know of the last step: the edges of joints whose faces slid, and those that take
+/// part in an event under way. Faces that have moved past one another (general contact) are left out.
+std::vector<SlidingEdge> sliding_edges(const State& state);
 
 /// Ends every event under way, as a run does.
 std::vector<SeismicEvent> finish_slip(SlipMemory& memory, const SeismicMedium& medium);

@@ -9,7 +9,7 @@
 #include "crackle/cohesive/cohesive.hpp"
 #include "crackle/contact/general_contact.hpp"
 #include "crackle/fluid/fluid.hpp"
-#include "crackle/seismic/event.hpp"
+#include "crackle/seismic/slip_events.hpp"
 #include "crackle/solid/bulk.hpp"
 #include "crackle/solve/boundary.hpp"
 #include "crackle/solve/stopwatch.hpp"
@@ -42,7 +42,8 @@ struct Scene {
   std::optional<CompressibleFluid> fluid;
   double initial_pressure = 0.0;  ///< of the fluid [Pa]
   Pump pump;
-  double thickness = 1.0;  ///< for magnitudes [m]
+  double thickness = 1.0;   ///< for magnitudes [m]
+  double slip_rate = 1e-2;  ///< at which the slip of a joint is an event [m/s]
 };
 
 /// Energies per metre of thickness [J/m], at full steps; stored ones are changes since the start of
@@ -89,8 +90,10 @@ class Simulation {
   /// The same, with the energies at the time before the step. @throws NumericalError when anything
   /// is not finite
   Energies step_and_account(double dt);
-  /// Events of the last step.
+  /// Events of the last step: what broke, and slips of joints that ended.
   const std::vector<SeismicEvent>& new_events() const { return new_events_; }
+  /// Ends the slips of joints that are under way, at the end of a run.
+  std::vector<SeismicEvent> end_slips() { return finish_slip(state_.slips, medium()); }
 
   /// Largest unbalanced force over the largest corner force: how far from static equilibrium.
   double imbalance();
@@ -100,6 +103,9 @@ class Simulation {
   void relax();
   void advance(double dt, Energies* account);
   void move_nodes(double dt);
+  void listen_to_slips();
+  static double longest_joint_edge(const Mesh& mesh);
+  SeismicMedium medium() const { return {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness}; }
   void cut_cracks();
   void prepare_insertion();
   void insert_stressed();
@@ -128,6 +134,7 @@ class Simulation {
   Energies reference_;  // stored energies at the start
   double scale_ = 0.0;  // largest energy so far
   Index geostatic_slips_ = 0;
+  double longest_joint_edge_ = longest_joint_edge(*scene_.mesh);  // [m]; 0: no joints
 };
 
 }  // namespace crackle

@@ -9,6 +9,7 @@
 
 #include "crackle/core/vec2.hpp"
 #include "crackle/mesh/mesh.hpp"
+#include "crackle/state/slip_memory.hpp"
 
 namespace crackle {
 
@@ -51,8 +52,10 @@ struct CohesiveHistory {
   double fracture_energy = 0.0;   ///< dissipated by breaking [J/m]
   double sliding_work = 0.0;      ///< part of fracture_energy done in shear [J/m]
   double friction_energy = 0.0;   ///< dissipated by friction [J/m]
+  double slid = 0.0;              ///< in the last step, past sticking: mean over its points [m]
+  double rubbed = 0.0;            ///< dissipated by friction in the last step [J/m]
   double yield_time = -1.0;       ///< first damage [s]; -1: none yet
-  double kinetic_at_yield = 0.0;  ///< of its four nodes [J/m]
+  double kinetic_at_yield = 0.0;  ///< of its faces, see face_kinetic_energy() [J/m]
   double kinetic_rise = 0.0;      ///< largest rise above kinetic_at_yield [J/m]
   double break_time = -1.0;       ///< [s]; -1: not broken
   std::int8_t mode = 0;           ///< FailureMode once broken
@@ -154,6 +157,7 @@ struct State {
   ContactState contact;
   FluidState fluid;
   Dissipation dissipation;
+  SlipMemory slips;
 
   Index node_count() const { return static_cast<Index>(displacement.size()); }
   Vec2 reference(Index corner) const {
@@ -197,5 +201,9 @@ struct Parting {
 /// copied, so mass and momentum are the same to round-off.
 /// @param edges in ascending order @return nodes that parted, by vertex
 std::vector<Parting> insert_elements(State& state, std::span<const Index> edges, std::uint16_t material);
+
+/// Kinetic energy [J/m] of the four corners at the faces of a cohesive element, each with its third of its
+/// triangle's mass: the same however many corners move together as a node. Fixed nodes count nothing.
+double face_kinetic_energy(const State& state, Index element);
 
 }  // namespace crackle

@@ -147,5 +147,44 @@ TEST(State, ALoneEdgeFreesNothing) {
   FAIL() << "the plate has no such edges";
 }
 
+// What moves alike has the same energy at its faces, whether corners share nodes or not.
+TEST(State, EnergyAtTheFacesIsThatOfTheirCorners) {
+  State split = make_split_state(plate()), tied = make_tied_state(plate());
+  insert_all(split);
+  std::vector<Index> edges;
+  for (Index e = 0; e < tied.mesh->edge_count(); ++e) {
+    if (tied.mesh->edges[at(e)].kind == EdgeKind::interior && e % 7 == 0) edges.push_back(e);
+  }
+  set_mass(tied, 2500.0);
+  insert_elements(tied, edges, 0);
+  set_mass(split, 2500.0);
+  for (State* state : {&split, &tied}) {
+    for (Index n = 0; n < state->node_count(); ++n) {
+      const Vec2 x = state->node_reference(n);
+      state->velocity[at(n)] = {0.3 + x.y, x.x * x.y - 0.1};
+    }
+  }
+  double worst = 0.0;
+  for (Index i = 0; i < tied.cohesive.count(); ++i) {
+    const double expected = face_kinetic_energy(split, split.cohesive.of_edge[at(tied.cohesive.edge[at(i)])]);
+    worst = std::max(worst, std::abs(face_kinetic_energy(tied, i) / expected - 1.0));
+  }
+  // by hand: two triangles of the first element, at one velocity
+  for (Vec2& v : split.velocity) v = {3.0, 4.0};
+  const Edge& edge = split.mesh->edges[at(split.cohesive.edge[0])];
+  double area = 0.0;
+  for (const Index t : edge.triangle) {
+    const auto& c = split.mesh->triangles[at(t)];
+    const Vec2 x0 = split.mesh->vertices[at(c[0])];
+    area += 0.5 * cross(split.mesh->vertices[at(c[1])] - x0, split.mesh->vertices[at(c[2])] - x0);
+  }
+  worst = std::max(worst,
+                   std::abs(face_kinetic_energy(split, 0) / (0.5 * 25.0 * 2500.0 * area * 2.0 / 3.0) - 1.0));
+  std::printf("energy at the faces: largest error %.1e over %zu elements\n", worst, edges.size());
+  EXPECT_LT(worst, 1e-13);
+  for (double& w : split.inverse_mass) w = 0.0;
+  EXPECT_EQ(face_kinetic_energy(split, 0), 0.0) << "fixed";
+}
+
 }  // namespace
 }  // namespace crackle
