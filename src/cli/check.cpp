@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 
 #include "commands.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
 #include "crackle/solve/scene_warnings.hpp"
 #include "forecast.hpp"
+#include "joints.hpp"
 #include "load.hpp"
 #include "parameters.hpp"
 #include "scene.hpp"
@@ -20,7 +22,8 @@
 namespace crackle {
 namespace {
 
-void print_mesh(const Case& scene, const Mesh& with_core, const Mesh& mesh, double seconds) {
+void print_mesh(const Case& scene, const Mesh& with_core, const Mesh& mesh, const NetworkReport& network,
+                double seconds) {
   fmt::print("\nMesh, by {} ({:.1f} s)\n", scene.mesh.file.empty() ? scene.mesh.generator : scene.mesh.file,
              seconds);
   const auto interior = std::count_if(mesh.edges.begin(), mesh.edges.end(),
@@ -41,6 +44,8 @@ void print_mesh(const Case& scene, const Mesh& with_core, const Mesh& mesh, doub
                quality.max_size_ratio);
   }
   fmt::print("  smallest angle {:.1f} degrees\n", quality.min_angle_deg);
+  std::istringstream lines(network_text(network));
+  for (std::string line; std::getline(lines, line);) fmt::print("  {}\n", line);
 }
 
 void print_onset(const Scene& scene, double end_time) {
@@ -87,11 +92,12 @@ int check_command(const CheckOptions& options) {
   std::fflush(stdout);
 
   const auto start = std::chrono::steady_clock::now();
-  const Mesh with_core = make_mesh(scene);
+  NetworkReport network;
+  const Mesh with_core = make_mesh(scene, &network);
   const auto mesh = std::make_shared<const Mesh>(excavate(with_core));
   const double meshing = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   require_memory(scene, mesh->triangle_count());
-  print_mesh(scene, with_core, *mesh, meshing);
+  print_mesh(scene, with_core, *mesh, network, meshing);
 
   const Scene solver_scene = make_scene(scene, mesh);
   if (const std::string error = scene_error(solver_scene); !error.empty()) {

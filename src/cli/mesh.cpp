@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// `crackle mesh`: the mesh of a case as a file, for gmsh (.msh) or ParaView (.vtu).
+// `crackle mesh`: the mesh of a case as a file, for gmsh (.msh) or ParaView (.vtu, and beside it the
+// edges of the joints).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +11,14 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/io/output.hpp"
 #include "forecast.hpp"
+#include "joints.hpp"
 #include "load.hpp"
 #include "scene.hpp"
 
 namespace crackle {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The mesh as a frame of fields, its regions marked.
 FieldFrame frame_of(const Mesh& mesh) {
@@ -30,7 +34,7 @@ FieldFrame frame_of(const Mesh& mesh) {
 }  // namespace
 
 int mesh_command(const MeshOptions& options) {
-  const std::string ending = std::filesystem::path(options.output).extension().string();
+  const std::string ending = fs::path(options.output).extension().string();
   if (ending != ".msh" && ending != ".vtu") {
     throw CaseError(
         fmt::format("{}: cannot tell the format from the ending \"{}\"; write FILE.msh (gmsh) or FILE.vtu "
@@ -39,11 +43,16 @@ int mesh_command(const MeshOptions& options) {
   }
   const Case scene = load_case(options.case_file, options.overrides, options.seed);
   require_memory(scene);
-  const Mesh mesh = make_mesh(scene);
+  NetworkReport network;
+  const Mesh mesh = make_mesh(scene, &network);
+  const bool jointed =
+      std::any_of(mesh.edges.begin(), mesh.edges.end(), [](const Edge& e) { return e.joint >= 0; });
+  const std::string joints_file = fs::path(options.output).replace_extension().string() + "_joints.vtu";
   if (ending == ".msh") {
     write_gmsh(mesh, options.output);
   } else {
     write_vtu(options.output, frame_of(mesh));
+    if (jointed) write_vtu(joints_file, joint_frame(mesh));
   }
   const MeshRecipe recipe = mesh_recipe(scene);
   const bool generated = scene.mesh.file.empty();
@@ -58,6 +67,8 @@ int mesh_command(const MeshOptions& options) {
                quality.max_size_ratio);
   }
   fmt::print("\n");
+  if (network.joints > 0) fmt::print("{}\n", network_text(network));
+  if (jointed && ending == ".vtu") fmt::print("{}: the joints' edges\n", joints_file);
   return 0;
 }
 

@@ -19,6 +19,7 @@
 #include "crackle/solve/scene_warnings.hpp"
 #include "forecast.hpp"
 #include "frames.hpp"
+#include "joints.hpp"
 #include "load.hpp"
 #include "progress.hpp"
 #include "scene.hpp"
@@ -135,9 +136,11 @@ int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folde
   say(fmt::format("crackle {}: {}", version, scene.title.empty() ? options.case_file : scene.title));
 
   const auto start = std::chrono::steady_clock::now();
-  auto mesh = std::make_shared<const Mesh>(excavate(make_mesh(scene)));
+  NetworkReport network;
+  auto mesh = std::make_shared<const Mesh>(excavate(make_mesh(scene, &network)));
   say(fmt::format("mesh: {} triangles, {} vertices ({:.1f} s)", mesh->triangle_count(), mesh->vertex_count(),
                   seconds_since(start)));
+  if (network.joints > 0) say(network_text(network));
   require_memory(scene, mesh->triangle_count());  // known only now for a mesh from a file
   const Scene solver_scene = make_scene(scene, mesh);
   if (const std::string error = scene_error(solver_scene); !error.empty())

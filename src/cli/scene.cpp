@@ -5,6 +5,7 @@
 
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/estimates.hpp"
+#include "joints.hpp"
 
 namespace crackle {
 namespace {
@@ -35,15 +36,16 @@ MeshRecipe mesh_recipe(const Case& scene) {
   return recipe;
 }
 
-Mesh make_mesh(const Case& scene) {
+Mesh make_mesh(const Case& scene, NetworkReport* network) {
   if (!scene.mesh.file.empty()) {
     Mesh mesh = read_gmsh(scene.mesh.file);
     order_along_hilbert_curve(mesh);
     require_quality(mesh, measure_quality(mesh, nullptr), smallest_angle_deg);
     return mesh;
   }
-  const MeshRecipe recipe = mesh_recipe(scene);
-  Mesh mesh = generate_mesh(recipe);
+  MeshRecipe recipe = mesh_recipe(scene);
+  add_joints(scene, recipe);
+  Mesh mesh = generate_mesh(recipe, network);
   require_quality(mesh, measure_quality(mesh, &recipe), smallest_angle_deg);
   return mesh;
 }

@@ -7,12 +7,12 @@
 
 namespace crackle {
 
-/// The recipe of a case's mesh.
+/// The recipe of a case's mesh, without its joints.
 MeshRecipe mesh_recipe(const Case& scene);
 
 /// The mesh of a case, generated or read from its file, its core still in; passed by the quality gate.
-/// @throws MeshError
-Mesh make_mesh(const Case& scene);
+/// @param network where given, what became of the joints of a generated mesh. @throws MeshError
+Mesh make_mesh(const Case& scene, NetworkReport* network = nullptr);
 
 /// What the solver needs of a case, on an excavated mesh.
 Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated);

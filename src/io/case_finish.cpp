@@ -66,14 +66,8 @@ void check_mesh(const Case& scene, const GivenKeys& given) {
   }
 }
 
-/// A path in a case file is relative to that file, one given to --set to the working folder.
 void resolve_mesh_file(Case& scene, const GivenKeys& given) {
-  if (scene.mesh.file.empty()) return;
-  const Place place = given.place("mesh.file");
-  const fs::path folder = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
-  std::error_code error;
-  const fs::path path = fs::absolute(folder / scene.mesh.file, error);
-  if (!error) scene.mesh.file = path.lexically_normal().string();
+  if (!scene.mesh.file.empty()) scene.mesh.file = resolved_path(scene.mesh.file, given.place("mesh.file"));
 }
 
 void finish_pump(Case& scene, const GivenKeys& given) {
@@ -162,6 +156,13 @@ void finish_run(Case& scene, const GivenKeys& given) {
 
 }  // namespace
 
+std::string resolved_path(const std::string& path, const Place& place) {
+  const fs::path folder = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
+  std::error_code error;
+  const fs::path absolute = fs::absolute(folder / path, error);
+  return error ? path : absolute.lexically_normal().string();
+}
+
 void finish_case(ReadCase& read) {
   Case& scene = read.scene;
   const GivenKeys& given = read.given;
@@ -177,6 +178,7 @@ void finish_case(ReadCase& read) {
   if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;
   if (scene.contact.tangential_penalty == 0.0) scene.contact.tangential_penalty = scene.cohesive.penalty;
   if (!given.has("contact.friction_angle")) scene.contact.friction_angle = scene.rock.friction_angle;
+  finish_joints(read);
 }
 
 }  // namespace crackle

@@ -38,4 +38,10 @@ struct ReadCase {
 /// @throws CaseError
 void finish_case(ReadCase& read);
 
+/// The part of finish_case() on [[joints]] and [[joint_sets]], after all other defaults.
+void finish_joints(ReadCase& read);
+
+/// A path in a case file, made absolute: relative to that file, one given to --set to the working folder.
+std::string resolved_path(const std::string& path, const Place& place);
+
 }  // namespace crackle

@@ -2,6 +2,7 @@
 #include "case_schema.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numbers>
 
 #include "case_slot.hpp"
@@ -23,6 +24,7 @@ const Quantity viscosity{"a viscosity", {"Pa s"}, "\"1e4 Pa s\""};
 /// In the plane a rate is per metre of thickness: "65 l/s" stands for 65 l/s a metre, as papers write it.
 const Quantity rate{
     "an injection rate per metre of thickness", {"m2/s", "m3/s"}, "\"65 l/s\" or \"0.065 m2/s\""};
+const Quantity per_area{"a number per area", {"1/m2"}, "\"320 1/m2\""};
 const Quantity degrees{"an angle on Earth in degrees", {"degree"}, "8.5"};
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -39,6 +41,7 @@ const Range poisson{-1.0, 0.5, false, false,
                     "above -1 and below 0.5: beyond, straining would release energy"};
 const Range friction{0.0, right_angle, true, false, "from 0 to below 90 degrees"};
 const Range fraction{0.0, 1.0, false, true, "above 0 and at most 1"};
+const Range concentrated{0.0, 1e6, true, true, "from 0 (any direction) to 1e6"};
 const Range east{-180.0, 180.0, true, true, "from -180 to 180 degrees"};
 const Range north{-90.0, 90.0, true, true, "from -90 to 90 degrees"};
 const Range any_count{0.0, inf, true, true, "0 or more"};
@@ -64,8 +67,24 @@ KeySpec text(std::string_view key, Slot slot, std::string_view meaning, std::str
 }
 
 KeySpec choice(std::string_view key, Slot slot, std::vector<std::string_view> choices,
-               std::string_view meaning) {
-  return {.key = key, .slot = slot, .meaning = meaning, .choices = std::move(choices)};
+               std::string_view meaning, std::string_view fallback = {}) {
+  return {.key = key, .slot = slot, .meaning = meaning, .fallback = fallback, .choices = std::move(choices)};
+}
+
+/// A text that is also part of names in other files.
+KeySpec named(std::string_view key, Slot slot, std::string_view meaning, std::string_view fallback) {
+  return {.key = key,
+          .slot = slot,
+          .meaning = meaning,
+          .fallback = fallback,
+          .check = [](const std::string& name) {
+            const auto allowed = [](unsigned char c) {
+              return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-');
+            };
+            if (name.empty() || name.size() > 64 || !std::ranges::all_of(name, allowed)) {
+              throw CaseError("write 1 to 64 letters, digits, _ or -");
+            }
+          }};
 }
 
 KeySpec moment(std::string_view key, Slot slot, std::string_view meaning) {
@@ -76,6 +95,33 @@ KeySpec moment(std::string_view key, Slot slot, std::string_view meaning) {
 }
 
 using C = Case;
+using JP = C::JointProperties;
+using JS = C::JointSet;
+
+template <auto member>
+Slot of_set() {
+  return slot<&C::joint_sets, member>();
+}
+
+/// What a list of joints and one of sets both have.
+template <auto rows>
+std::vector<KeySpec> with_joint_properties(std::vector<KeySpec> keys) {
+  // clang-format off
+  const std::vector<KeySpec> properties{
+      choice("law", slot<rows, &JP::law>(), {"frictional", "bonded"}, "\"frictional\": closed, slides by friction; \"bonded\": breaks like rock"),
+      number("residual_friction_angle", slot<rows, &JP::residual_friction_angle>(), angle, friction, Need::never, "friction angle of sliding faces", "contact.friction_angle"),
+      number("normal_penalty", slot<rows, &JP::normal_penalty>(), pressure, positive, Need::never, "stiffness times edge length of closed joints", "cohesive.penalty"),
+      number("tangential_penalty", slot<rows, &JP::tangential_penalty>(), pressure, positive, Need::never, "of faces that stick", "contact.tangential_penalty"),
+      number("tensile_strength", slot<rows, &JP::tensile_strength>(), pressure, strength, Need::never, "of a bonded joint, which needs it", "none"),
+      number("cohesion", slot<rows, &JP::cohesion>(), pressure, strength, Need::never, "of a bonded joint, which needs it", "none"),
+      number("friction_angle", slot<rows, &JP::friction_angle>(), angle, friction, Need::never, "internal, of a bonded joint, which needs it", "none"),
+      number("fracture_energy_mode1", slot<rows, &JP::fracture_energy_mode1>(), energy_per_area, breaking, Need::never, "of a bonded joint, which needs it", "none"),
+      number("fracture_energy_mode2", slot<rows, &JP::fracture_energy_mode2>(), energy_per_area, breaking, Need::never, "of a bonded joint, which needs it", "none"),
+  };
+  // clang-format on
+  keys.insert(keys.end(), properties.begin(), properties.end());
+  return keys;
+}
 
 std::vector<TableSpec> make_tables() {
   // clang-format off
@@ -127,6 +173,33 @@ std::vector<TableSpec> make_tables() {
       number("tangential_penalty", slot<&C::contact, &C::Contact::tangential_penalty>(), pressure, not_negative, Need::never, "of broken faces that stick", "cohesive.penalty"),
       number("friction_angle", slot<&C::contact, &C::Contact::friction_angle>(), angle, friction, Need::never, "residual friction angle of broken faces", "rock.friction_angle"),
     }},
+    rows_of<&C::joints>("joints", with_joint_properties<&C::joints>({
+      number("x1", slot<&C::joints, &C::Joint::x1>(), length, any, Need::always, "one end of the joint"),
+      number("y1", slot<&C::joints, &C::Joint::y1>(), length, any, Need::always, "one end of the joint"),
+      number("x2", slot<&C::joints, &C::Joint::x2>(), length, any, Need::always, "the other end"),
+      number("y2", slot<&C::joints, &C::Joint::y2>(), length, any, Need::always, "the other end"),
+    })),
+    rows_of<&C::joint_sets>("joint_sets", with_joint_properties<&C::joint_sets>({
+      named("name", of_set<&JS::name>(), "of the set; with mesh.file the name of its joints there", "set1, set2, ...; with mesh.file: all others"),
+      text("file", of_set<&JS::file>(), "a CSV file of joints (columns x1_m, y1_m, x2_m, y2_m), relative to the file that names it, instead of density", "none"),
+      number("density", of_set<&JS::density>(), per_area, positive, Need::never, "joints per area, of a random set", "none"),
+      choice("length_distribution", of_set<&JS::length_distribution>(), {"constant", "normal", "lognormal", "power_law"}, "of the lengths", "constant"),
+      number("length_mean", of_set<&JS::length_mean>(), length, positive, Need::never, "mean length; but for power_law", "none"),
+      number("length_deviation", of_set<&JS::length_deviation>(), length, positive, Need::never, "standard deviation; normal and lognormal", "none"),
+      number("length_exponent", of_set<&JS::length_exponent>(), plain, not_negative, Need::never, "a of power_law: lengths l are as frequent as l^-a", "none"),
+      number("length_min", of_set<&JS::length_min>(), length, positive, Need::never, "shorter ones are drawn again", "none; power_law needs it"),
+      number("length_max", of_set<&JS::length_max>(), length, positive, Need::never, "longer ones are drawn again", "none; power_law needs it"),
+      choice("orientation", of_set<&JS::orientation>(), {"uniform", "von_mises", "constant"}, "distribution of directions", "uniform"),
+      number("angle", of_set<&JS::angle>(), angle, any, Need::never, "mean direction, from the x axis; constant and von_mises", "none"),
+      number("concentration", of_set<&JS::concentration>(), plain, concentrated, Need::never, "kappa of von_mises, about the doubled angle", "none"),
+      number("region_radius", of_set<&JS::region_radius>(), length, positive, Need::never, "middles lie within it of the origin, instead of a rectangle", "none"),
+      number("region_x_min", of_set<&JS::region_x_min>(), length, any, Need::never, "left side of the rectangle in which middles lie", "the domain's"),
+      number("region_x_max", of_set<&JS::region_x_max>(), length, any, Need::never, "right side", "the domain's"),
+      number("region_y_min", of_set<&JS::region_y_min>(), length, any, Need::never, "lower side", "the domain's"),
+      number("region_y_max", of_set<&JS::region_y_max>(), length, any, Need::never, "upper side", "the domain's"),
+      number("clear_distance", of_set<&JS::clear_distance>(), length, not_negative, Need::never, "joints that come nearer to the wellbore's wall are left out", "none"),
+      count("seed", of_set<&JS::seed>(), "of the random numbers of the set", "1, 2, ... by row"),
+    })),
     {"damping", {
       number("viscosity", slot<&C::damping, &C::Damping::viscosity>(), viscosity, not_negative, Need::never, "viscous stress over strain rate, instead of ratio", "none"),
       number("ratio", slot<&C::damping, &C::Damping::ratio>(), plain, not_negative, Need::never, "of the critical viscosity 2 h sqrt(E rho), instead of viscosity", "0.1"),

@@ -21,7 +21,7 @@ namespace crackle {
 template <class T>
 using Ref = T& (*)(Case&, std::size_t row);
 using Slot = std::variant<std::monostate, Ref<double>, Ref<std::optional<double>>, Ref<int>,
-                          Ref<std::uint64_t>, Ref<std::string>, Ref<std::vector<std::string>>>;
+                          Ref<std::uint64_t>, Ref<std::optional<std::uint64_t>>, Ref<std::string>, Ref<std::vector<std::string>>>;
 
 /// What a number measures.
 struct Quantity {

@@ -131,7 +131,8 @@ void read_value(const TomlNode& value, const ValueContext& context, Case& scene,
       slot(scene, row) = read_number(value, context);
     } else if constexpr (std::is_same_v<Slotted, Ref<int>>) {
       slot(scene, row) = read_count<int>(value, context);
-    } else if constexpr (std::is_same_v<Slotted, Ref<std::uint64_t>>) {
+    } else if constexpr (std::is_same_v<Slotted, Ref<std::uint64_t>> ||
+                         std::is_same_v<Slotted, Ref<std::optional<std::uint64_t>>>) {
       slot(scene, row) = read_count<std::uint64_t>(value, context);
     } else if constexpr (std::is_same_v<Slotted, Ref<std::string>>) {
       slot(scene, row) = read_text(value, context);

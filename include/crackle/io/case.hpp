@@ -37,6 +37,48 @@ struct Case {
     std::string file;  ///< a .msh file instead of a generator; made absolute when read
   } mesh;
 
+  /// How joints bear. "frictional": closed, without cohesion or tensile strength; slides at
+  /// residual_friction_angle. "bonded": breaks like rock, by values of its own, which it then has to have.
+  struct JointProperties {
+    std::string law = "frictional";
+    std::optional<double> residual_friction_angle;  ///< [rad]; default: contact.friction_angle
+    std::optional<double> normal_penalty;           ///< [Pa]; default: cohesive.penalty
+    std::optional<double> tangential_penalty;       ///< [Pa]; default: contact.tangential_penalty
+    std::optional<double> tensile_strength;         ///< [Pa]; this and the following: bonded only
+    std::optional<double> cohesion;                 ///< [Pa]
+    std::optional<double> friction_angle;           ///< internal [rad]
+    std::optional<double> fracture_energy_mode1;    ///< [J/m2]
+    std::optional<double> fracture_energy_mode2;    ///< [J/m2]
+  };
+  struct Joint : JointProperties {
+    double x1 = 0.0, y1 = 0.0;  ///< one end [m]
+    double x2 = 0.0, y2 = 0.0;  ///< the other [m]
+  };
+  std::vector<Joint> joints;
+
+  /// Joints that share their properties: random ones (density and what follows), those of a CSV file, or
+  /// those of that name in mesh.file.
+  struct JointSet : JointProperties {
+    std::string name;                        ///< default: "set1", "set2" ...; with mesh.file: all others
+    std::string file;                        ///< columns x1_m, y1_m, x2_m, y2_m; made absolute when read
+    std::optional<double> density;           ///< middles of joints per area [1/m2]
+    std::string length_distribution;         ///< "constant" (default), "normal", "lognormal", "power_law"
+    std::optional<double> length_mean;       ///< [m]; but for power_law
+    std::optional<double> length_deviation;  ///< standard deviation [m]; normal and lognormal
+    std::optional<double> length_exponent;   ///< f(l) ~ l^-exponent; power_law
+    std::optional<double> length_min;        ///< [m]
+    std::optional<double> length_max;        ///< [m]
+    std::string orientation;                 ///< "uniform" (default), "von_mises", "constant"
+    std::optional<double> angle;             ///< from the x axis, counter-clockwise [rad]; but for uniform
+    std::optional<double> concentration;     ///< kappa of von_mises [-]
+    std::optional<double> region_radius;     ///< middles lie in a circle round the origin [m], or in:
+    std::optional<double> region_x_min, region_x_max, region_y_min,
+        region_y_max;                      ///< default: the domain [m]
+    std::optional<double> clear_distance;  ///< from the wellbore's wall that no joint enters [m]
+    std::optional<std::uint64_t> seed;     ///< default: 1, 2 ... by row
+  };
+  std::vector<JointSet> joint_sets;
+
   struct Rock {
     double density = 0.0;                ///< [kg/m3]
     double young_modulus = 0.0;          ///< [Pa]

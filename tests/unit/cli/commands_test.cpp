@@ -96,6 +96,31 @@ TEST_F(Commands, MeshAndBack) {
   EXPECT_EQ(read_text(path("a.msh")), read_text(path("b.msh")));
 }
 
+TEST_F(Commands, MeshShowsTheJoints) {
+  const std::string file = write("joints.toml", std::string(good_case) + R"(
+[[joints]]
+x1 = "0.2 m"
+y1 = "-0.2 m"
+x2 = "0.2 m"
+y2 = "0.2 m"
+[[joint_sets]]
+name = "mapped"
+file = "mapped.csv"
+)");
+  write("mapped.csv", "x1_m,y1_m,x2_m,y2_m\n0.1,0.1,0.3,0.1\n-0.3,-0.2,-0.1,-0.3\n");
+  const Outcome drawn = crackle({"mesh", file, "-o", path("a.vtu")});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_THAT(drawn.out, AllOf(HasSubstr("3 joints: 3 in the mesh"), HasSubstr("1 junctions"),
+                               HasSubstr("a_joints.vtu")));
+  EXPECT_THAT(read_text(path("a_joints.vtu")), HasSubstr("joint_set"));
+  ASSERT_EQ(crackle({"mesh", file, "-o", path("a.msh")}).code, 0);
+  EXPECT_THAT(read_text(path("a.msh")),
+              AllOf(HasSubstr("joint_joint1_000000"), HasSubstr("joint_mapped_000001")));
+  EXPECT_THAT(crackle({"check", "-j", "1", file}).out, HasSubstr("3 joints: 3 in the mesh"));
+  write("mapped.csv", "x1_m,y1_m,x2_m,y2_m\n0.1,0.1,0.3\n");
+  expect_refusal(crackle({"mesh", file, "-o", path("a.vtu")}), 2, "mapped.csv:2: this row has 3 columns");
+}
+
 TEST_F(Commands, MeshFollowsItsSeed) {
   const std::string file = write("good.toml", good_case);
   for (const char* seed : {"1", "2"}) {

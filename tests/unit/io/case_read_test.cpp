@@ -101,7 +101,7 @@ TEST(CaseRead, SortsPumpStagesAndEndsAnOpenOneWithTheRun) {
 
 TEST(CaseRead, NamesEachMissingKeyAndItsTable) {
   for (const CaseKey& key : case_keys()) {
-    if (!key.default_value.empty()) continue;
+    if (!key.default_value.empty() || key.table == "joints") continue;  // joints: a list that may be empty
     std::istringstream lines(good_text());
     std::string text;
     int dropped = 0;

@@ -32,6 +32,7 @@ TEST(ResolvedToml, HoldsEveryKeyOnce) {
   // absent: a list of included files, the damping that was not chosen, a mesh file
   const std::set<std::string> absent = {"include", "ratio", "file"};
   for (const CaseKey& key : case_keys()) {
+    if (key.table.starts_with("joint")) continue;  // lists that may be empty: case_joints_test.cpp
     EXPECT_EQ(text.find("\n" + key.key + " = ") == std::string::npos, absent.contains(key.key)) << key.key;
   }
   EXPECT_EQ(text.rfind("# crackle ", 0), 0U);

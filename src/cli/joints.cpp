@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "joints.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "crackle/io/joints_csv.hpp"
+
+namespace crackle {
+namespace {
+
+JointLengths lengths_of(const Case::JointSet& set) {
+  JointLengths lengths;
+  if (set.length_distribution == "normal") lengths.law = JointLengths::Law::normal;
+  if (set.length_distribution == "lognormal") lengths.law = JointLengths::Law::lognormal;
+  if (set.length_distribution == "power_law") lengths.law = JointLengths::Law::power_law;
+  lengths.mean = set.length_mean.value_or(0.0);
+  lengths.deviation = set.length_deviation.value_or(0.0);
+  lengths.exponent = set.length_exponent.value_or(0.0);
+  lengths.min = set.length_min.value_or(lengths.min);
+  lengths.max = set.length_max.value_or(lengths.max);
+  return lengths;
+}
+
+JointDirections directions_of(const Case::JointSet& set) {
+  JointDirections directions;
+  if (set.orientation == "constant") directions.law = JointDirections::Law::constant;
+  if (set.orientation == "von_mises") directions.law = JointDirections::Law::von_mises;
+  directions.angle = set.angle.value_or(0.0);
+  directions.concentration = set.concentration.value_or(0.0);
+  return directions;
+}
+
+JointSet random_set(const Case::JointSet& set, double wellbore_radius) {
+  JointSet random;
+  random.density = *set.density;
+  random.length = lengths_of(set);
+  random.direction = directions_of(set);
+  if (set.region_radius) {
+    random.region.radius = *set.region_radius;
+  } else {
+    random.region.lower = {*set.region_x_min, *set.region_y_min};
+    random.region.upper = {*set.region_x_max, *set.region_y_max};
+  }
+  if (set.clear_distance) random.clear_radius = wellbore_radius + *set.clear_distance;
+  random.seed = *set.seed;
+  return random;
+}
+
+}  // namespace
+
+void add_joints(const Case& scene, MeshRecipe& recipe) {
+  for (const Case::Joint& joint : scene.joints) {
+    const Index set = static_cast<Index>(recipe.joint_sets.size());
+    recipe.joint_sets.push_back(fmt::format("joint{}", recipe.joint_sets.size() + 1));
+    recipe.joints.push_back({{joint.x1, joint.y1}, {joint.x2, joint.y2}, set});
+  }
+  for (const Case::JointSet& set : scene.joint_sets) {
+    const Index number = static_cast<Index>(recipe.joint_sets.size());
+    recipe.joint_sets.push_back(set.name);
+    const std::vector<Joint> joints =
+        set.file.empty() ? generate_joints(random_set(set, 0.5 * scene.wellbore.diameter), number)
+                         : read_joints_csv(set.file, number);
+    recipe.joints.insert(recipe.joints.end(), joints.begin(), joints.end());
+  }
+}
+
+std::string network_text(const NetworkReport& report) {
+  if (report.joints == 0) return {};
+  std::string text = fmt::format("{} joints: {} in the mesh, {:.4g} m of edges, {} junctions", report.joints,
+                                 report.shown, report.length, report.junctions);
+  if (report.merged > 0) text += fmt::format("; {} run along others all the way", report.merged);
+  if (report.too_short > 0) text += fmt::format("; {} left out as shorter than an edge", report.too_short);
+  if (report.outside > 0) text += fmt::format("; {} outside the rock", report.outside);
+  text += fmt::format("\nshortest edge of a joint {:.3g} mm; smallest angle between joints {:.1f} degrees",
+                      1e3 * report.shortest_edge, report.smallest_angle_deg);
+  if (report.sharp > 0) {
+    text += fmt::format(" ({} below 20 as given, the sharpest {:.2g} at ({:.4g}, {:.4g}) m)", report.sharp,
+                        report.sharpest_deg, report.sharpest_at.x, report.sharpest_at.y);
+  }
+  if (report.snapped > 0) {
+    text += fmt::format(
+        "\n{} points nearly touched something and were moved onto it, by {:.3g} mm at most, at ({:.4g}, "
+        "{:.4g}) m",
+        report.snapped, 1e3 * report.largest_move, report.largest_move_at.x, report.largest_move_at.y);
+  }
+  return text;
+}
+
+FractureFrame joint_frame(const Mesh& mesh) {
+  FractureFrame frame;
+  Field joint{"joint", 1, {}}, set{"joint_set", 1, {}};
+  for (const Edge& edge : mesh.edges) {
+    if (edge.joint < 0) continue;
+    const Index first = static_cast<Index>(frame.points.size());
+    for (const Index v : edge.vertex) frame.points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+    frame.lines.push_back({first, first + 1});
+    joint.values.push_back(edge.joint);
+    set.values.push_back(mesh.set_of_joint.at(static_cast<std::size_t>(edge.joint)));
+  }
+  frame.cell_fields = {std::move(joint), std::move(set)};
+  return frame;
+}
+
+}  // namespace crackle
