@@ -297,12 +297,13 @@ def draw_after_closure(analysis, path):
     finish(figure, analysis, "After closure", path)
 
 
-def draw(analysis, folder):
-    draw_record(analysis, folder / "record.png")
-    draw_derivatives(analysis, folder / "g_function.png", G, "G-function")
-    draw_derivatives(analysis, folder / "sqrt_time.png", ROOT, "Square root of time")
-    draw_log_log(analysis, folder / "log_log.png")
-    draw_after_closure(analysis, folder / "after_closure.png")
+FIGURES = {
+    "record.png": draw_record,
+    "g_function.png": lambda analysis, path: draw_derivatives(analysis, path, G, "G-function"),
+    "sqrt_time.png": lambda analysis, path: draw_derivatives(analysis, path, ROOT, "Square root of time"),
+    "log_log.png": draw_log_log,
+    "after_closure.png": draw_after_closure,
+}
 
 
 def main():
@@ -316,10 +317,11 @@ def main():
     try:
         folder = pathlib.Path(arguments.output or arguments.analysis)
         folder.mkdir(parents=True, exist_ok=True)
-        draw(Analysis(arguments.analysis), folder)
-        if arguments.small:
-            for path in folder.glob("*.png"):
-                look.shrink(path)
+        analysis = Analysis(arguments.analysis)
+        for name, draw in FIGURES.items():
+            draw(analysis, folder / name)
+            if arguments.small:
+                look.shrink(folder / name)
     except (RunError, OSError) as error:
         sys.exit(f"draw_dfit: {error}")
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 
+#include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -216,6 +217,25 @@ TEST_F(Dfit, RunFolder) {
   ASSERT_EQ(crackle({"dfit-analyse", path("run")}).code, 0);
   EXPECT_THAT(read_text(path("run/dfit/analysis.json")), HasSubstr("\"young_modulus_Pa\": 35000000000"));
   expect_refusal(crackle({"dfit-analyse", path("")}), 2, "history.csv is missing");
+}
+
+TEST_F(Dfit, Figures) {
+  constexpr int modules_missing = 77;
+  CarterTest open;
+  open.closure = 0.0;
+  open.leak_off_coefficient = 5e-7;
+  for (const auto& record : {carter(), with_noise(record_of(open, sampling(1.0, 0.02, 1e5)), 1e3, 1)}) {
+    ASSERT_EQ(analyse(write("well.csv", table_of(record).text())).code, 0);
+    const std::string script = std::string(CRACKLE_SOURCE_DIR) + "/scripts/plots/draw_dfit.py";
+    const int status = std::system(("/usr/bin/python3 " + script + " " + out() + " > /dev/null").c_str());
+    if (WEXITSTATUS(status) == modules_missing)
+      GTEST_SKIP() << "python3-vtk9 or python3-matplotlib is not installed";
+    EXPECT_EQ(status, 0);
+    for (const char* name : {"record", "g_function", "sqrt_time", "log_log", "after_closure"}) {
+      EXPECT_GT(fs::file_size(out() + "/" + name + ".png"), 5000U) << name;
+      fs::remove(out() + "/" + name + ".png");
+    }
+  }
 }
 
 }  // namespace
