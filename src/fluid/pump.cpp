@@ -2,6 +2,7 @@
 #include "crackle/fluid/pump.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace crackle {
 
@@ -18,6 +19,16 @@ double Pump::volume(double from, double to) const {
     sum += s.rate * std::max(0.0, std::min(to, s.to) - std::max(from, s.from));
   }
   return sum;
+}
+
+double Pump::next_change(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const PumpStage& s : stages_) {
+    for (const double change : {s.from, s.to}) {
+      if (change > time) next = std::min(next, change);
+    }
+  }
+  return next;
 }
 
 }  // namespace crackle

@@ -10,6 +10,7 @@
 
 #include "crackle/core/errors.hpp"
 #include "crackle/core/parallel.hpp"
+#include "crackle/solve/element_stiffness.hpp"
 
 namespace crackle {
 namespace {
@@ -40,9 +41,7 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
         if (column < 0 || column > row) continue;  // lower triangle
         for (int a = 0; a < 2; ++a) {
           for (int b = 0; b < 2; ++b) {
-            // K_ia,jb = A g_i · C[sym(e_b ⊗ g_j)] · e_a
-            const Sym2 strain = b == 0 ? Sym2{g[j].x, 0.0, 0.5 * g[j].y} : Sym2{0.0, g[j].y, 0.5 * g[j].x};
-            const Vec2 force = c.stress(strain) * g[i];
+            const Vec2 force = element_force(c, g[i], g[j], b == 0 ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0});
             const Index r = 2 * row + a, k = 2 * column + b;
             if (k <= r)
               entries.emplace_back(r, k, static_cast<float>(bulk.area(t) * (a == 0 ? force.x : force.y)));

@@ -21,6 +21,8 @@ class Pump {
   double rate(double time) const;
   /// Volume injected between two times [m2]; exact over stage changes.
   double volume(double from, double to) const;
+  /// First time [s] after `time` at which the rate changes; infinity if it never does.
+  double next_change(double time) const;
 
  private:
   std::vector<PumpStage> stages_;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A point of a fracture's path in the quasi-static stage: effective traction t (tension positive) on
+// its faces from its opening w, with the largest opening w_m it has had.
+//   intact    w_m ≤ w_e   t = t₀ + k₀ w,  k₀ = (f − t₀)/w_e      (t₀: in-situ effective stress on it)
+//   loading   w = w_m     t = f z(D),  D = (w − w_e)/w_s           (z: softening of the cohesive law)
+//   unloading w < w_m     t = (w/w_m) f z(D_m) + closure of mated faces (closure.hpp)
+//   broken    D = 1       closure only
+// The intact bond carries the in-situ stress at w = 0, so nothing jumps when a point joins the path.
+// w_e is 0.002 of 2G/f; w_s is chosen so that ½ f w_e + f w_s ∫z dD = G.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+
+#include "crackle/cohesive/closure.hpp"
+#include "crackle/cohesive/law.hpp"
+
+namespace crackle {
+
+class InterfaceLaw {
+ public:
+  /// @param strength f [Pa], as resolved by the mesh @param fracture_energy G [J/m2]
+  InterfaceLaw(std::shared_ptr<const CohesiveLaw> law, double strength, double fracture_energy,
+               Closure closure);
+
+  double strength() const { return strength_; }
+  double elastic_opening() const { return elastic_; }              ///< w_e [m]
+  double broken_opening() const { return elastic_ + softening_; }  ///< opening without cohesion [m]
+  const Closure& closure() const { return closure_; }
+
+  /// D of a point that has been open by `max_opening` [m].
+  double damage(double max_opening) const {
+    return std::clamp((max_opening - elastic_) / softening_, 0.0, 1.0);
+  }
+  /// Traction at an opening [m]. @param max_opening before this step [m] @param in_situ t₀ [Pa]
+  TractionSlope traction(double opening, double max_opening, double in_situ) const;
+
+  /// Energy dissipated per area by a point that has been open by `max_opening` [J/m2].
+  double dissipated(double max_opening) const;
+
+ private:
+  std::shared_ptr<const CohesiveLaw> law_;
+  double strength_;
+  Closure closure_;
+  double elastic_ = 0.0, softening_ = 0.0;
+};
+
+}  // namespace crackle

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Leak-off from a fracture into the rock, per area of one face.
+//   Carter (1957)     v = C_L / √(t − t₀), so V = 2 C_L √(t − t₀)       (t₀: exposure)
+//                     times clamp((p − p_res)/p_cut, 0, 1): no leak-off from a starved cell
+//   diffusion         φ c_t ∂p/∂t = (k/μ) ∂²p/∂x², normal to the face, p = p_res at first
+//                     (V = 2 Δp √(k φ c_t t/(π μ)) at constant pressure: C_L = Δp √(k φ c_t/(π μ)))
+// Limits: one-dimensional, so short against the length of the fracture; no stress from the pressure
+// in the rock (poroelastic back-stress).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace crackle {
+
+struct CarterLeakOff {
+  double coefficient = 0.0;         ///< C_L [m/√s]
+  double reservoir_pressure = 0.0;  ///< p_res [Pa]
+  double cut_off = 2e6;             ///< p_cut [Pa]
+
+  /// Volume per area of one face [m] that leaks between two times after the exposure [s], at a pressure
+  /// [Pa]; `slope` by the pressure.
+  struct Volume {
+    double value = 0.0, slope = 0.0;
+  };
+  Volume volume(double from, double to, double pressure) const;
+};
+
+struct MatrixRock {
+  double permeability = 0.0;        ///< k [m2]
+  double porosity = 0.0;            ///< φ [-]
+  double compressibility = 0.0;     ///< c_t of pores and their fluid [1/Pa]
+  double viscosity = 0.0;           ///< μ of the fluid in the pores [Pa s]
+  double reservoir_pressure = 0.0;  ///< p_res [Pa]
+};
+
+/// Implicit diffusion normal to a face on a graded line of cells: first 0.1 mm, each next one longer
+/// by a quarter. One grid for all faces; a face's profile is kept by the caller.
+class MatrixDiffusion {
+ public:
+  /// @param cells 40 reach 3 m
+  explicit MatrixDiffusion(const MatrixRock& rock, int cells = 40);
+
+  using Profile = std::vector<double>;  ///< pressure of every cell [Pa]
+  Profile initial() const { return Profile(width_.size(), rock_.reservoir_pressure); }
+  double reach() const;  ///< depth of the last cell [m]
+
+  /// A backward Euler step of length dt [s]: volume per area [m] that enters the rock through a face at
+  /// pressure p is slope p + constant.
+  struct Response {
+    double slope = 0.0, constant = 0.0;
+  };
+  Response response(const Profile& profile, double dt) const;
+  /// Ends the step with the face at `pressure`.
+  void advance(Profile& profile, double dt, double pressure) const;
+  /// Volume per area that the rock holds above its initial state [m].
+  double stored(const Profile& profile) const;
+
+ private:
+  // p_i = a_i p_{i−1} + b_i from the deep end: a_i depends on dt alone.
+  void eliminate(double dt, std::span<const double> profile, std::vector<double>& a,
+                 std::vector<double>& b) const;
+
+  MatrixRock rock_;
+  std::vector<double> width_, transmissibility_;  // [m], [m/(Pa s)]; to the previous cell or the face
+};
+
+}  // namespace crackle

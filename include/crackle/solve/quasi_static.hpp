@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A fracture driven by fluid in field time: rock in static equilibrium at every moment, flow and
+// leak-off implicit (backward Euler), one Newton iteration for jumps, pressures and the well together.
+//   rock      S δ = ∫ (p − p_pore − t(w) + σ'_n) ∂w/∂δ ds       (condensation.hpp, interface.hpp)
+//   cell      h [w ρ(p)]ⁿ⁺¹ − h [w ρ]ⁿ + Δt Σ q_out + V_leak = 0   (fracture_flow.hpp, leak_off.hpp)
+//   well      C_w Δp_w = Δt (Q − Σ q)                               (well.hpp)
+// A cell is an edge of the path. The fracture grows by an edge where the opening at its tip passes the
+// elastic one; this is iterated within the step. Tension positive; volumes at reference density, per
+// metre of thickness.
+// Limits: elastic rock, no stress from fluid that leaks off, no inertia.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "crackle/cohesive/closure.hpp"
+#include "crackle/cohesive/law.hpp"
+#include "crackle/fluid/fracture_flow.hpp"
+#include "crackle/fluid/leak_off.hpp"
+#include "crackle/fluid/pump.hpp"
+#include "crackle/fluid/well.hpp"
+#include "crackle/solid/stiffness.hpp"
+#include "crackle/solve/fracture_path.hpp"
+
+namespace crackle {
+
+/// Which edges ahead of the fluid carry its pressure.
+enum class Wetting : std::uint8_t {
+  tip_pressure,  ///< damaged edges hold fluid, the edge ahead of them carries the pressure of the last one
+  damaged,       ///< damaged edges hold fluid, the edge ahead is dry: a spurious toughness under confinement
+  broken,        ///< only edges without any cohesion left hold fluid (Y-Geo)
+};
+
+/// A fracture that starts at the well and follows given edges.
+struct Wing {
+  Index start = -1;         ///< vertex at the well
+  std::vector<Index> path;  ///< mesh edges in order
+  std::size_t open = 1;     ///< how many of them are broken, and filled, from the beginning
+};
+
+struct TimeControl {
+  double relative = 0.02;   ///< largest step over the time since the last change of the schedule [-]
+  double growth = 1.25;     ///< of a step over the one before [-]
+  double first = 1e-3;      ///< step after a change of the schedule [s]
+  double smallest = 1e-10;  ///< below it the stage gives up [s]
+  int edges_per_step = 3;   ///< a tip may advance by in one step
+};
+
+struct QuasiStaticScene {
+  std::shared_ptr<const Mesh> mesh;
+  PlaneStiffness stiffness;
+  Held held;                   ///< components held at zero displacement, per vertex
+  Sym2 stress;                 ///< in situ, effective [Pa]
+  double pore_pressure = 0.0;  ///< in the dry rock; also that of the fluid at first [Pa]
+  bool slip = false;           ///< false: faces only open
+  std::shared_ptr<const CohesiveLaw> law;
+  double tensile_strength = 0.0;  ///< [Pa]
+  double fracture_energy = 0.0;   ///< mode I [J/m2]
+  double edges_per_zone = 8.0;    ///< strength is lowered until E'G/f² is as many edges long
+  Closure closure;
+  FractureFluid fluid;
+  std::variant<std::monostate, CarterLeakOff, MatrixRock> leak_off;
+  Well well;
+  Pump pump;
+  Wetting wetting = Wetting::tip_pressure;
+  std::vector<Wing> wings;
+  TimeControl control;
+};
+
+/// What is recorded of every step; volumes [m2] per metre of thickness at reference density.
+struct QuasiStaticRow {
+  double time = 0.0, step = 0.0;              ///< [s]
+  double well_pressure = 0.0;                 ///< [Pa]
+  double fracture_pressure = 0.0;             ///< mean of the cells at the well [Pa]
+  double least_pressure = 0.0;                ///< of all cells [Pa]
+  double rate = 0.0, perforation_rate = 0.0;  ///< pumped, and into the fracture, mean of the step [m2/s]
+  double injected = 0.0, well_stored = 0.0, fracture_volume = 0.0, leaked = 0.0;
+  double mass_defect = 0.0;       ///< injected less what is found [m2]
+  double broken_length = 0.0;     ///< all wings, up to where nothing holds any more [m]
+  double damaged_length = 0.0;    ///< up to where damage begins [m]
+  double opening = 0.0;           ///< at the well [m]
+  double mean_opening = 0.0;      ///< of fluid-filled cells [m]
+  double contact_fraction = 0.0;  ///< of their length, where faces touch [-]
+  double dissipated = 0.0;        ///< by fracture [J/m]
+  int iterations = 0;             ///< of Newton, in this step
+};
+
+/// An edge of the fracture as it is now.
+struct FractureCell {
+  Index edge = -1;                ///< of the mesh
+  double length = 0.0;            ///< [m]
+  std::array<double, 2> opening;  ///< at its inner and outer vertex [m]
+  std::array<double, 2> damage;   ///< [-]
+  bool wet = false;
+  double pressure = 0.0;  ///< [Pa]
+  double leaked = 0.0;    ///< [m2]
+};
+
+class QuasiStatic {
+ public:
+  /// Factorises the rock and finds the equilibrium of the initial fracture at pore pressure.
+  /// @throws CaseError for a scene that cannot run, NumericalError
+  explicit QuasiStatic(QuasiStaticScene scene);
+  ~QuasiStatic();
+
+  const QuasiStaticScene& scene() const;
+  double time() const;
+  /// One step of the length that suits, ending at `end` [s] at the latest.
+  /// @throws NumericalError when no step converges, or the fracture comes to the end of its path
+  QuasiStaticRow step(double end);
+  /// Steps until `end`; `record` gets every row.
+  void run(double end, const std::function<void(const QuasiStaticRow&)>& record = {});
+
+  std::vector<FractureCell> cells() const;
+  const FracturePath& path() const;
+  /// Displacement of all vertices [m] (condensation.hpp).
+  std::vector<Vec2> displacement() const;
+  /// Strength that the mesh resolves [Pa], the least of the path so far.
+  double strength() const;
+  int rejected_steps() const;
+  int newton_iterations() const;
+
+ private:
+  class Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace crackle

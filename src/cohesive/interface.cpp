@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/cohesive/interface.hpp"
+
+namespace crackle {
+
+InterfaceLaw::InterfaceLaw(std::shared_ptr<const CohesiveLaw> law, double strength, double fracture_energy,
+                           Closure closure)
+    : law_(std::move(law)), strength_(strength), closure_(closure) {
+  elastic_ = 0.002 * 2.0 * fracture_energy / strength_;
+  softening_ = (fracture_energy - 0.5 * strength_ * elastic_) / (strength_ * law_->softening_integral());
+}
+
+TractionSlope InterfaceLaw::traction(double opening, double max_opening, double in_situ) const {
+  if (std::max(opening, max_opening) <= elastic_) {
+    const double stiffness = (strength_ - in_situ) / elastic_;
+    return {in_situ + stiffness * opening, stiffness};
+  }
+  const double largest = std::max(opening, max_opening);
+  const double d = damage(largest);
+  TractionSlope t;
+  if (opening < max_opening) {
+    t = closure_.traction(opening, max_opening);
+    if (d < 1.0) {
+      const double secant = strength_ * law_->softening(d) / max_opening;
+      t.traction += secant * opening;
+      t.slope += secant;
+    }
+  } else if (d < 1.0) {
+    constexpr double step = 1e-5;
+    const double low = std::max(d - step, 0.0), high = std::min(d + step, 1.0);
+    t.traction = strength_ * law_->softening(d);
+    t.slope = strength_ * (law_->softening(high) - law_->softening(low)) / ((high - low) * softening_);
+  }
+  return t;
+}
+
+double InterfaceLaw::dissipated(double max_opening) const {
+  if (max_opening <= elastic_) return 0.0;
+  const double d = damage(max_opening);
+  constexpr int pieces = 32;  // Simpson
+  double sum = 0.0;
+  for (int i = 0; i < pieces; ++i) {
+    const double a = d * i / pieces, b = d * (i + 1) / pieces;
+    sum += (b - a) / 6.0 *
+           (law_->softening(a) + 4.0 * law_->softening(0.5 * (a + b)) + law_->softening(std::min(b, 1.0)));
+  }
+  const double work = 0.5 * strength_ * elastic_ + strength_ * softening_ * sum;
+  return d < 1.0 ? work - 0.5 * strength_ * law_->softening(d) * max_opening : work;
+}
+
+}  // namespace crackle

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/solve/condensation.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+
+#include "crackle/core/errors.hpp"
+#include "crackle/solve/element_stiffness.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr std::array<Vec2, 2> axis{Vec2{1.0, 0.0}, Vec2{0.0, 1.0}};
+
+std::size_t corner_of(const std::array<Index, 3>& triangle, Index vertex) {
+  return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
+}
+
+}  // namespace
+
+struct Condensation::Factor {
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+};
+
+Condensation::~Condensation() = default;
+
+Condensation::Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, const Held& held)
+    : mesh_(std::move(mesh)), bulk_(bulk), factor_(std::make_unique<Factor>()) {
+  equation_.assign(2 * mesh_->vertices.size(), -1);
+  Index count = 0;
+  for (std::size_t i = 0; i < equation_.size(); ++i) {
+    if (!((held[i / 2] >> (i % 2)) & 1)) equation_[i] = count++;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(mesh_->triangles.size() * 21);
+  for (Index t = 0; t < mesh_->triangle_count(); ++t) {
+    const auto g = bulk_.shape_gradients(t);
+    const auto& v = mesh_->triangles[at(t)];
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t b = 0; b < 2; ++b) {
+        const Index column = equation_[2 * at(v[j]) + b];
+        if (column < 0) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Vec2 force = bulk_.area(t) * element_force(bulk_.stiffness(), g[i], g[j], axis[b]);
+          for (std::size_t a = 0; a < 2; ++a) {
+            const Index row = equation_[2 * at(v[i]) + a];
+            if (row >= column) entries.emplace_back(row, column, dot(force, axis[a]));
+          }
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> stiffness(count, count);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  factor_->solver.compute(stiffness);
+  if (factor_->solver.info() != Eigen::Success || !(factor_->solver.vectorD().minCoeff() > 0.0))
+    throw NumericalError(
+        "static condensation: the stiffness matrix is singular; is the rock held by nothing?");
+}
+
+double Condensation::overlap(const JumpUnknown& a, const JumpUnknown& b) const {
+  double sum = 0.0;
+  for (const Index t : a.triangles) {
+    if (!std::binary_search(b.triangles.begin(), b.triangles.end(), t)) continue;
+    const auto g = bulk_.shape_gradients(t);
+    const auto& v = mesh_->triangles[at(t)];
+    sum += bulk_.area(t) * dot(a.direction, element_force(bulk_.stiffness(), g[corner_of(v, a.vertex)],
+                                                          g[corner_of(v, b.vertex)], b.direction));
+  }
+  return sum;
+}
+
+void Condensation::append(const JumpUnknown& unknown) {
+  Column column{unknown, {}};
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(factor_->solver.rows());
+  for (const Index t : unknown.triangles) {
+    const auto g = bulk_.shape_gradients(t);
+    const auto& v = mesh_->triangles[at(t)];
+    const Vec2 moved = g[corner_of(v, unknown.vertex)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 f = bulk_.area(t) * element_force(bulk_.stiffness(), g[i], moved, unknown.direction);
+      for (std::size_t a = 0; a < 2; ++a) {
+        const Index row = equation_[2 * at(v[i]) + a];
+        if (row < 0) continue;
+        column.force.emplace_back(row, 0.0);
+        force[row] += dot(f, axis[a]);
+      }
+    }
+  }
+  std::sort(column.force.begin(), column.force.end());
+  column.force.erase(std::unique(column.force.begin(), column.force.end()), column.force.end());
+  for (auto& [row, value] : column.force) value = force[row];
+  const Eigen::VectorXd response = factor_->solver.solve(force);
+  columns_.push_back(std::move(column));
+  for (const Column& other : columns_) {
+    double s = overlap(other.unknown, unknown);
+    for (const auto& [row, value] : other.force) s -= value * response[row];
+    stiffness_.push_back(s);
+  }
+}
+
+void Condensation::follow(const std::vector<JumpUnknown>& unknowns) {
+  for (size_ = 0; size_ < unknowns.size(); ++size_) {
+    if (size_ < columns_.size() && columns_[size_].unknown == unknowns[size_]) continue;
+    if (size_ < columns_.size()) {
+      columns_.resize(size_);
+      stiffness_.resize(size_ * (size_ + 1) / 2);
+    }
+    append(unknowns[size_]);
+  }
+}
+
+std::vector<Vec2> Condensation::displacement(std::span<const double> jumps) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(factor_->solver.rows());
+  for (std::size_t k = 0; k < jumps.size(); ++k) {
+    for (const auto& [row, value] : columns_[k].force) force[row] -= value * jumps[k];
+  }
+  const Eigen::VectorXd u = factor_->solver.solve(force);
+  std::vector<Vec2> result(mesh_->vertices.size());
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    const Index x = equation_[2 * v], y = equation_[2 * v + 1];
+    result[v] = {x < 0 ? 0.0 : u[x], y < 0 ? 0.0 : u[y]};
+  }
+  return result;
+}
+
+}  // namespace crackle

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "newton.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <cmath>
+
+namespace crackle::quasi_static {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr int most_iterations = 30;
+constexpr double rock_tolerance = 1e-8;
+constexpr double fluid_tolerance = 1e-8;
+constexpr double round_off = 1e-15;
+constexpr double pressure_unit = 1e6;  // [Pa]
+constexpr double rate_unit = 1e-4;     // [m2/s]
+
+double opening_of(const std::vector<JumpTerm>& terms, const std::vector<double>& jumps) {
+  double w = 0.0;
+  for (const JumpTerm& t : terms) w += t.normal * jumps[at(t.unknown)];
+  return w;
+}
+
+// The equations of one Newton iteration. Unknowns of the fluid: pressures of wet cells, rates of
+// inlets, pressure of the well.
+class System {
+ public:
+  System(const Equations& equations, const State& state, double dt, double rate)
+      : e_(equations), s_(state), dt_(dt), rate_(rate) {
+    jumps_ = static_cast<Index>(e_.path.unknowns().size());
+    pressure_.assign(s_.cells.size(), -1);
+    if (dt_ > 0.0) {
+      for (std::size_t c = 0; c < s_.cells.size(); ++c) {
+        if (s_.cells[c].wet) pressure_[c] = fluid_++;
+      }
+      first_inlet_ = fluid_;
+      if (s_.connected) fluid_ += static_cast<Index>(s_.inlets.size());
+      well_ = fluid_++;
+    }
+  }
+
+  Index fluid_unknowns() const { return fluid_; }
+
+  // careful: without the negative slopes of softening, which may turn Newton's step round at the peak
+  void assemble(bool careful) {
+    careful_ = careful;
+    stiffness_.setZero(jumps_, jumps_);
+    rock_residual_.setZero(jumps_);
+    by_jumps_.setZero(fluid_, jumps_);
+    fluid_residual_.setZero(fluid_);
+    by_fluid_.clear();
+    fluid_entries_.clear();
+    rock_scale_ = fluid_scale_ = fluid_error_ = fluid_noise_ = 0.0;
+    add_rock();
+    add_faces();
+    if (fluid_ == 0) return;
+    add_cells();
+    add_vertices();
+    add_well();
+  }
+
+  bool converged() const {
+    if (rock_residual_.lpNorm<1>() > rock_tolerance * rock_scale_) return false;
+    return fluid_ == 0 || fluid_error_ + fluid_residual_.head(first_inlet_).lpNorm<1>() <=
+                              fluid_tolerance * fluid_scale_ + fluid_noise_;
+  }
+
+  // Newton's step of jumps and fluid unknowns.
+  bool solve(Eigen::VectorXd& jumps, Eigen::VectorXd& fluid) const {
+    if (fluid_ == 0) {
+      jumps = stiffness_.partialPivLu().solve(-rock_residual_);
+      return jumps.allFinite();
+    }
+    // Rows scaled by their largest entry; right-hand sides [∂R/∂jumps | R].
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(fluid_);
+    for (const auto& t : fluid_entries_) largest[t.row()] += std::abs(t.value());
+    std::vector<Eigen::Triplet<double>> scaled = fluid_entries_;
+    for (auto& t : scaled) t = {t.row(), t.col(), t.value() / largest[t.row()]};
+    Eigen::SparseMatrix<double> matrix(fluid_, fluid_);
+    matrix.setFromTriplets(scaled.begin(), scaled.end());
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
+    if (lu.info() != Eigen::Success) return false;
+    Eigen::MatrixXd right(fluid_, jumps_ + 1);
+    right.leftCols(jumps_) = by_jumps_;
+    right.col(jumps_) = fluid_residual_;
+    right.array().colwise() /= largest.array();
+    const Eigen::MatrixXd x = lu.solve(right);
+    Eigen::MatrixXd condensed = stiffness_;
+    Eigen::VectorXd load = -rock_residual_;
+    for (const auto& t : by_fluid_) {
+      condensed.row(t.row()) -= t.value() * x.row(t.col()).head(jumps_);
+      load[t.row()] += t.value() * x(t.col(), jumps_);
+    }
+    jumps = condensed.partialPivLu().solve(load);
+    fluid = -x.col(jumps_) - x.leftCols(jumps_) * jumps;
+    return jumps.allFinite() && fluid.allFinite();
+  }
+
+  // Share of a step that leaves every closing point at least 30 % of its opening.
+  double share(const Eigen::VectorXd& step) const {
+    double share = 1.0;
+    for (std::size_t c = 0; c < s_.cells.size(); ++c) {
+      const auto now = openings(e_.path.edges()[c], s_.jumps);
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (s_.cells[c].points[i].max_opening <= e_.laws[c].elastic_opening()) continue;
+        double change = 0.0;
+        for (const JumpTerm& t : e_.path.edges()[c].jump[i]) change += t.normal * step[t.unknown];
+        if (change < -0.7 * now[i]) share = std::min(share, -0.7 * now[i] / change);
+      }
+    }
+    return share;
+  }
+
+  void move(State& state, const Eigen::VectorXd& jumps, const Eigen::VectorXd& fluid, double share) const {
+    for (Index k = 0; k < jumps_; ++k) state.jumps[at(k)] += share * jumps[k];
+    if (fluid_ == 0) return;
+    for (std::size_t c = 0; c < s_.cells.size(); ++c) {
+      if (pressure_[c] >= 0) state.cells[c].pressure += share * pressure_unit * fluid[pressure_[c]];
+    }
+    if (s_.connected) {
+      for (std::size_t i = 0; i < s_.inlets.size(); ++i)
+        state.inlets[i].rate += share * rate_unit * fluid[first_inlet_ + static_cast<Index>(i)];
+    }
+    state.well_pressure += share * pressure_unit * fluid[well_];
+  }
+
+ private:
+  void add_rock() {
+    for (Index i = 0; i < jumps_; ++i) {
+      const double* row = e_.rock.row(at(i));
+      for (Index j = 0; j <= i; ++j) {
+        const double s = row[j];
+        stiffness_(i, j) = stiffness_(j, i) = s;
+        rock_residual_[i] += s * s_.jumps[at(j)];
+        if (j < i) rock_residual_[j] += s * s_.jumps[at(i)];
+      }
+    }
+    rock_scale_ += rock_residual_.lpNorm<1>();
+  }
+
+  // Tractions and pressure on the faces, half an edge to each end.
+  void add_faces() {
+    for (std::size_t c = 0; c < s_.cells.size(); ++c) {
+      const PathEdge& edge = e_.path.edges()[c];
+      const auto open = openings(edge, s_.jumps);
+      const Index source = pressure_source(e_, s_, static_cast<Index>(c));
+      const double p = source < 0 ? e_.scene.pore_pressure : s_.cells[at(source)].pressure;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Point& point = s_.cells[c].points[i];
+        const TractionSlope t = e_.laws[c].traction(open[i], point.max_opening, point.in_situ);
+        const double weight = 0.5 * edge.length;
+        const double slope = careful_ ? std::max(t.slope, 0.0) : t.slope;
+        const double load = weight * (p - e_.scene.pore_pressure - t.traction + point.in_situ);
+        for (const JumpTerm& a : edge.jump[i]) {
+          rock_residual_[a.unknown] -= load * a.normal;
+          rock_scale_ += weight *
+                         (std::abs(p - e_.scene.pore_pressure) + std::abs(t.traction - point.in_situ)) *
+                         std::abs(a.normal);
+          for (const JumpTerm& b : edge.jump[i])
+            stiffness_(a.unknown, b.unknown) += weight * slope * a.normal * b.normal;
+          if (source >= 0 && pressure_[at(source)] >= 0)
+            by_fluid_.emplace_back(a.unknown, pressure_[at(source)], -weight * a.normal * pressure_unit);
+        }
+      }
+    }
+  }
+
+  double aperture(Index cell) const {
+    const auto w = openings(e_.path.edges()[at(cell)], s_.jumps);
+    return 0.5 * (w[0] + w[1]);
+  }
+  // d(row)/d(aperture of cell) into the columns of the jumps.
+  void by_aperture(Index row, Index cell, double slope) {
+    for (const auto& end : e_.path.edges()[at(cell)].jump) {
+      for (const JumpTerm& t : end) by_jumps_(row, t.unknown) += 0.5 * slope * t.normal;
+    }
+  }
+  void by_pressure(Index row, Index cell, double slope) {
+    fluid_entries_.emplace_back(row, pressure_[at(cell)], slope * pressure_unit);
+  }
+
+  void add_cells() {
+    for (std::size_t c = 0; c < s_.cells.size(); ++c) {
+      const Index row = pressure_[c];
+      if (row < 0) continue;
+      const Cell& cell = s_.cells[c];
+      const double h = e_.path.edges()[c].length, w = aperture(static_cast<Index>(c));
+      const ValueSlope density = e_.scene.fluid.density(cell.pressure);
+      const ValueSlope lost = leak(e_, s_, static_cast<Index>(c), cell.pressure, dt_);
+      fluid_residual_[row] += h * w * density.value - cell.mass + lost.value;
+      fluid_scale_ += std::abs(h * w * density.value - cell.mass) + std::abs(lost.value) + 1e-6 * cell.mass;
+      by_aperture(row, static_cast<Index>(c), h * density.value);
+      by_pressure(row, static_cast<Index>(c), h * w * density.slope + lost.slope);
+    }
+  }
+
+  // Flow through every vertex between wet cells: conductances of half edges in a star,
+  //   q_i = a_i κ (p̄ − p_i),  a_i = 2/h_i,  p̄ = Σ a p / Σ a,  κ of the cells' mean aperture.
+  void add_vertices() {
+    std::vector<char> done(s_.cells.size(), 0);  // outer vertex of the cell
+    for (std::size_t c = 0; c < s_.cells.size(); ++c) {
+      if (pressure_[c] < 0) continue;
+      for (const Index vertex : e_.path.edges()[c].vertex) {
+        std::vector<Index> around;
+        bool first = true, well = false;
+        for (const Index other : e_.path.at_vertex(vertex)) {
+          if (pressure_[at(other)] < 0) continue;
+          if (at(other) < c) first = false;
+          around.push_back(other);
+          const PathEdge& edge = e_.path.edges()[at(other)];
+          if (edge.parent < 0 && edge.vertex[0] == vertex) well = true;
+        }
+        if (first && !well && around.size() > 1) add_star(around);
+      }
+    }
+  }
+
+  void add_star(const std::vector<Index>& around) {
+    double sum = 0.0, mean = 0.0, width = 0.0;
+    for (const Index c : around) {
+      const double a = 2.0 / e_.path.edges()[at(c)].length;
+      sum += a;
+      mean += a * s_.cells[at(c)].pressure;
+      width += aperture(c);
+    }
+    mean /= sum;
+    const auto count = static_cast<double>(around.size());
+    const ValueSlope k = e_.scene.fluid.conductivity(width / count);
+    for (const Index c : around) {
+      const Index row = pressure_[at(c)];
+      const double a = 2.0 / e_.path.edges()[at(c)].length;
+      const double drop = a * (mean - s_.cells[at(c)].pressure);
+      fluid_residual_[row] -= dt_ * k.value * drop;
+      fluid_noise_ += round_off * dt_ * k.value * a * std::abs(mean);
+      for (const Index j : around) {
+        const double aj = 2.0 / e_.path.edges()[at(j)].length;
+        by_pressure(row, j, -dt_ * k.value * a * (aj / sum - (j == c ? 1.0 : 0.0)));
+        by_aperture(row, j, -dt_ * k.slope * drop / count);
+      }
+    }
+  }
+
+  void add_well() {
+    const Well& well = e_.scene.well;
+    double out = 0.0;
+    const auto by_rate = [&](Index row, std::size_t i, double slope) {
+      fluid_entries_.emplace_back(row, first_inlet_ + static_cast<Index>(i), slope * rate_unit);
+    };
+    if (s_.connected) {
+      for (std::size_t i = 0; i < s_.inlets.size(); ++i) {
+        const Inlet& inlet = s_.inlets[i];
+        const Index row = first_inlet_ + static_cast<Index>(i), cell = inlet.cell;
+        out += inlet.rate;
+        fluid_residual_[pressure_[at(cell)]] -= dt_ * inlet.rate;
+        by_rate(pressure_[at(cell)], i, -dt_);
+        by_rate(well_, i, dt_);
+        // κ (2/h) (p_w − p − loss) − q = 0
+        const double a = 2.0 / e_.path.edges()[at(cell)].length;
+        const ValueSlope k = e_.scene.fluid.conductivity(aperture(cell));
+        const ValueSlope loss = well.loss(inlet.rate, s_.time - s_.breakdown_time);
+        const double drop = s_.well_pressure - s_.cells[at(cell)].pressure - loss.value;
+        fluid_residual_[row] = a * k.value * drop - inlet.rate;
+        fluid_error_ += dt_ * std::abs(fluid_residual_[row]);
+        fluid_entries_.emplace_back(row, well_, a * k.value * pressure_unit);
+        by_pressure(row, cell, -a * k.value);
+        by_rate(row, i, -a * k.value * loss.slope - 1.0);
+        by_aperture(row, cell, a * k.slope * drop);
+      }
+    }
+    const double stored = well.storage * (s_.well_pressure - s_.well_before);
+    fluid_residual_[well_] = stored - dt_ * (rate_ - out);
+    fluid_error_ += std::abs(fluid_residual_[well_]);
+    fluid_scale_ += dt_ * (std::abs(rate_) + std::abs(out)) + std::abs(stored);
+    // A well without storage that is shut off keeps its pressure.
+    const double slope = well.storage > 0.0 || s_.connected ? well.storage : 1.0;
+    fluid_entries_.emplace_back(well_, well_, slope * pressure_unit);
+  }
+
+  const Equations& e_;
+  const State& s_;
+  double dt_, rate_;
+  bool careful_ = false;
+  Index jumps_ = 0, fluid_ = 0, first_inlet_ = 0, well_ = -1;
+  std::vector<Index> pressure_;  // per cell: fluid unknown, -1: none
+  Eigen::MatrixXd stiffness_, by_jumps_;
+  Eigen::VectorXd rock_residual_, fluid_residual_;
+  std::vector<Eigen::Triplet<double>> by_fluid_, fluid_entries_;
+  double rock_scale_ = 0.0, fluid_scale_ = 0.0, fluid_error_ = 0.0;
+  double fluid_noise_ = 0.0;  // round-off of flow between cells at nearly the same pressure
+};
+
+}  // namespace
+
+std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& jumps) {
+  return {opening_of(edge.jump[0], jumps), opening_of(edge.jump[1], jumps)};
+}
+
+Index pressure_source(const Equations& equations, const State& state, Index cell) {
+  if (state.cells[at(cell)].wet) return cell;
+  if (equations.scene.wetting != Wetting::tip_pressure) return -1;
+  const Index parent = equations.path.edges()[at(cell)].parent;
+  return parent >= 0 && state.cells[at(parent)].wet ? parent : -1;
+}
+
+ValueSlope leak(const Equations& equations, const State& state, Index cell, double pressure, double dt) {
+  const Cell& c = state.cells[at(cell)];
+  if (state.time < c.exposed) return {};
+  const double faces = 2.0 * equations.path.edges()[at(cell)].length;
+  if (const auto* carter = std::get_if<CarterLeakOff>(&equations.scene.leak_off)) {
+    const double since = state.time - c.exposed;
+    const auto v = carter->volume(since, since + dt, pressure);
+    return {faces * v.value, faces * v.slope};
+  }
+  if (equations.matrix) {
+    const auto r = equations.matrix->response(c.matrix, dt);
+    return {faces * (r.slope * pressure + r.constant), faces * r.slope};
+  }
+  return {};
+}
+
+NewtonResult solve(const Equations& equations, State& state, double dt, double rate) {
+  System system(equations, state, dt, rate);
+  Eigen::VectorXd jumps, fluid;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    system.assemble(iteration >= 6 && iteration < 14);
+    if (iteration > 0 && system.converged()) return {true, iteration};
+    if (!system.solve(jumps, fluid)) return {false, iteration};
+    system.move(state, jumps, fluid, system.share(jumps));
+  }
+  return {false, most_iterations};
+}
+
+}  // namespace crackle::quasi_static

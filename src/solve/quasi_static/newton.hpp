@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One implicit step on a given path: Newton on jumps, pressures of wet cells, rates of inlets, and the
+// pressure of the well. The fluid's unknowns are eliminated first (sparse), the jumps solved for (dense).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "crackle/cohesive/interface.hpp"
+#include "crackle/solve/condensation.hpp"
+#include "crackle/solve/quasi_static.hpp"
+#include "state.hpp"
+
+namespace crackle::quasi_static {
+
+/// All that the equations need beside the state.
+struct Equations {
+  const QuasiStaticScene& scene;
+  const FracturePath& path;
+  const Condensation& rock;
+  const std::vector<InterfaceLaw>& laws;  // one per path edge
+  const std::optional<MatrixDiffusion>& matrix;
+};
+
+/// Opening [m] at the two ends of a path edge.
+std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& jumps);
+
+/// Pressure on the faces of a path edge [Pa]: of its own cell, or as the wetting rule says.
+/// @return the cell that gives it, -1: the pore pressure
+Index pressure_source(const Equations& equations, const State& state, Index cell);
+
+/// Volume [m2] that leaks from a cell in a step, and its derivative by the pressure [m2/Pa].
+ValueSlope leak(const Equations& equations, const State& state, Index cell, double pressure, double dt);
+
+struct NewtonResult {
+  bool converged = false;
+  int iterations = 0;
+};
+
+/// Moves jumps, pressures and rates of `state` (whose histories and masses are those at the beginning
+/// of the step) to the end of a step of length dt [s] with a mean pump rate [m2/s].
+/// dt = 0: equilibrium at the given pressures.
+NewtonResult solve(const Equations& equations, State& state, double dt, double rate);
+
+}  // namespace crackle::quasi_static

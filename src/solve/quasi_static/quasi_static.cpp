@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "crackle/solve/quasi_static.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "crackle/core/errors.hpp"
+#include "crackle/solve/estimates.hpp"
+#include "newton.hpp"
+#include "state.hpp"
+
+namespace crackle {
+
+namespace qs = quasi_static;
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void check(const QuasiStaticScene& scene) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw CaseError(std::string("quasi-static stage: ") + what);
+  };
+  require(!scene.wings.empty(), "no fracture to start from");
+  for (const Wing& wing : scene.wings)
+    require(wing.open >= 1 && wing.open < wing.path.size(), "a wing needs an open edge and one ahead of it");
+  require(scene.tensile_strength > 0.0 && scene.fracture_energy > 0.0,
+          "tensile strength and fracture energy have to be positive");
+  require(scene.closure.residual_aperture > 0.0,
+          "residual aperture has to be positive: a mated fracture without any would never let fluid in");
+  require(scene.fluid.compressibility > 0.0, "the fluid needs a compressibility");
+  require(scene.pore_pressure - scene.fluid.cavitation_pressure >= 1e6,
+          "cavitation pressure has to be at least 1 MPa below the initial pressure");
+}
+
+}  // namespace
+
+class QuasiStatic::Solver {
+ public:
+  explicit Solver(QuasiStaticScene scene)
+      : scene_((check(scene), std::move(scene))),
+        bulk_(*scene_.mesh, scene_.stiffness, 1.0, scene_.stress, {}),
+        path_(scene_.mesh, scene_.held, scene_.slip),
+        rock_(scene_.mesh, bulk_, scene_.held),
+        equations_{scene_, path_, rock_, laws_, matrix_} {
+    if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
+    state_.well_pressure = scene_.pore_pressure;
+    state_.connected = !scene_.well.breakdown_pressure.has_value();
+    for (std::size_t w = 0; w < scene_.wings.size(); ++w) start(static_cast<Index>(w));
+    settle();
+    step_ = scene_.control.first;
+  }
+
+  QuasiStaticRow step(double end) {
+    if (!(end > state_.time)) throw CaseError("quasi-static stage: a step has to end later than it starts");
+    for (double dt = choose(end);; dt *= 0.5) {
+      if (dt < scene_.control.smallest) stop(dt);
+      const std::size_t edges = path_.edges().size();
+      qs::State trial = state_;
+      trial.well_before = state_.well_pressure;
+      const double until = dt >= end - state_.time ? end : state_.time + dt;
+      const double rate = scene_.pump.volume(state_.time, until) / dt;
+      const int iterations = advance(trial, dt, rate);
+      if (iterations < 0) {
+        path_.truncate(edges);
+        laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(edges), laws_.end());
+        ++rejected_;
+        continue;
+      }
+      return commit(std::move(trial), until, dt, rate, iterations);
+    }
+  }
+
+  std::vector<FractureCell> cells() const {
+    std::vector<FractureCell> list;
+    for (std::size_t c = 0; c < state_.cells.size(); ++c) {
+      const qs::Cell& cell = state_.cells[c];
+      const PathEdge& edge = path_.edges()[c];
+      const Index source = qs::pressure_source(equations_, state_, static_cast<Index>(c));
+      FractureCell f;
+      f.edge = edge.edge;
+      f.length = edge.length;
+      f.opening = qs::openings(edge, state_.jumps);
+      for (std::size_t i = 0; i < 2; ++i) f.damage[i] = laws_[c].damage(cell.points[i].max_opening);
+      f.wet = cell.wet;
+      f.pressure = source < 0 ? scene_.pore_pressure : state_.cells[at(source)].pressure;
+      f.leaked = cell.leaked;
+      list.push_back(f);
+    }
+    return list;
+  }
+
+  const QuasiStaticScene& scene() const { return scene_; }
+  const FracturePath& path() const { return path_; }
+  double time() const { return state_.time; }
+  int rejected() const { return rejected_; }
+  int iterations() const { return iterations_; }
+  double strength() const {
+    double least = scene_.tensile_strength;
+    for (const InterfaceLaw& law : laws_) least = std::min(least, law.strength());
+    return least;
+  }
+  std::vector<Vec2> displacement() const { return rock_.displacement(state_.jumps); }
+
+ private:
+  // Adds the next edge of a wing behind `parent`, intact and dry.
+  Index extend(qs::State& state, Index wing, Index parent, std::size_t number) {
+    const Wing& w = scene_.wings[at(wing)];
+    const Index inner = parent < 0 ? w.start : path_.edges()[at(parent)].vertex[1];
+    const Index c = path_.add(w.path[number], inner, parent);
+    const PathEdge& edge = path_.edges()[at(c)];
+    laws_.emplace_back(scene_.law,
+                       resolved_strength(scene_.tensile_strength, plane_strain_modulus(scene_.stiffness),
+                                         scene_.fracture_energy, edge.length, scene_.edges_per_zone),
+                       scene_.fracture_energy, scene_.closure);
+    qs::Cell cell;
+    for (qs::Point& p : cell.points) p.in_situ = dot(edge.normal, scene_.stress * edge.normal);
+    cell.pressure = scene_.pore_pressure;
+    if (matrix_) cell.matrix = matrix_->initial();
+    state.cells.push_back(std::move(cell));
+    state.jumps.resize(path_.unknowns().size(), 0.0);
+    return c;
+  }
+
+  void start(Index wing) {
+    const Wing& w = scene_.wings[at(wing)];
+    Index parent = -1;
+    for (std::size_t i = 0; i <= w.open; ++i) {
+      const Index c = extend(state_, wing, parent, i);
+      if (i == 0) state_.inlets.push_back({c, 0.0});
+      if (i < w.open) {
+        const double free = std::max(laws_[at(c)].broken_opening(), scene_.closure.residual_aperture);
+        state_.cells[at(c)].wet = true;
+        state_.cells[at(c)].exposed = 0.0;
+        state_.cells[at(c)].points[0].max_opening = free;
+        if (i > 0) state_.cells[at(parent)].points[1].max_opening = free;
+      }
+      parent = c;
+    }
+    state_.tips.push_back({wing, parent});
+  }
+
+  // Mated faces under the in-situ stress at pore pressure.
+  void settle() {
+    rock_.follow(path_.unknowns());
+    for (std::size_t c = 0; c < state_.cells.size(); ++c) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        const qs::Point& p = state_.cells[c].points[i];
+        if (p.max_opening == 0.0) continue;
+        for (const JumpTerm& t : path_.edges()[c].jump[i]) {
+          state_.jumps[at(t.unknown)] = t.normal * scene_.closure.opening(-p.in_situ);
+        }
+      }
+    }
+    if (!qs::solve(equations_, state_, 0.0, 0.0).converged)
+      throw NumericalError("quasi-static stage: no equilibrium of the initial fracture at pore pressure");
+    for (std::size_t c = 0; c < state_.cells.size(); ++c) {
+      if (state_.cells[c].wet) state_.cells[c].mass = mass(state_, c);
+    }
+    initial_fracture_ = fracture_volume(state_);
+    initial_well_ = state_.well_pressure;
+  }
+
+  double mass(const qs::State& state, std::size_t c) const {
+    const auto w = qs::openings(path_.edges()[c], state.jumps);
+    return path_.edges()[c].length * 0.5 * (w[0] + w[1]) *
+           scene_.fluid.density(state.cells[c].pressure).value;
+  }
+  static double fracture_volume(const qs::State& state) {
+    double sum = 0.0;
+    for (const qs::Cell& cell : state.cells) sum += cell.mass;
+    return sum;
+  }
+
+  // Length of the next step: it lands on changes of the schedule and on breakdown.
+  double choose(double end) {
+    const double change = scene_.pump.next_change(state_.time);
+    const TimeControl& control = scene_.control;
+    double dt = std::min(step_, std::max(control.first, control.relative * (state_.time - event_)));
+    if (!state_.connected) {
+      const double rate = scene_.pump.rate(state_.time);
+      dt = rate > 0.0 ? (*scene_.well.breakdown_pressure - state_.well_pressure) * scene_.well.storage / rate
+                      : std::numeric_limits<double>::infinity();
+      dt = std::max(dt, control.smallest);
+    }
+    const double stop = std::min(end, change);
+    const double left = stop - state_.time;
+    // Two equal steps rather than a full one and a sliver.
+    return dt >= left ? left : std::min(dt, std::max(0.5 * left, 1e-3 * dt));
+  }
+
+  int advance(qs::State& trial, double dt, double rate) {
+    int iterations = 0;
+    std::vector<int> grown(trial.tips.size(), 0);
+    while (true) {
+      rock_.follow(path_.unknowns());
+      const qs::NewtonResult result = qs::solve(equations_, trial, dt, rate);
+      iterations += result.iterations;
+      iterations_ += result.iterations;
+      if (!result.converged) return -1;
+      bool changed = wet(trial);
+      for (std::size_t t = 0; t < trial.tips.size(); ++t) {
+        if (!opens(trial, trial.tips[t])) continue;
+        if (++grown[t] > scene_.control.edges_per_step) return -1;
+        grow(trial, trial.tips[t]);
+        changed = true;
+      }
+      if (!changed) return iterations;
+    }
+  }
+
+  bool opens(const qs::State& state, const qs::Tip& tip) const {
+    const double w = qs::openings(path_.edges()[at(tip.cell)], state.jumps)[0];
+    return w > laws_[at(tip.cell)].elastic_opening();
+  }
+
+  void grow(qs::State& state, qs::Tip& tip) {
+    const Wing& wing = scene_.wings[at(tip.wing)];
+    const auto here = std::find(wing.path.begin(), wing.path.end(), path_.edges()[at(tip.cell)].edge);
+    const auto next = static_cast<std::size_t>(here - wing.path.begin()) + 1;
+    if (next >= wing.path.size()) {
+      throw NumericalError(
+          fmt::format("quasi-static stage: at {:g} s the fracture has come to the end of its path; "
+                      "make the path longer, or end the run earlier",
+                      state.time));
+    }
+    const Index before = tip.cell;
+    tip.cell = extend(state, tip.wing, before, next);
+  }
+
+  void fill(qs::State& state, Index cell) const {
+    qs::Cell& c = state.cells[at(cell)];
+    const Index parent = path_.edges()[at(cell)].parent;
+    c.wet = true;
+    c.pressure = parent < 0 ? state.well_pressure : state.cells[at(parent)].pressure;
+  }
+
+  // Lets the fluid into damaged (or broken) edges next to it.
+  bool wet(qs::State& state) const {
+    bool changed = false;
+    for (std::size_t c = 0; c < state.cells.size(); ++c) {
+      const Index parent = path_.edges()[c].parent;
+      if (state.cells[c].wet || parent < 0 || !state.cells[at(parent)].wet) continue;
+      const auto w = qs::openings(path_.edges()[c], state.jumps);
+      const bool enters = scene_.wetting == Wetting::broken
+                              ? std::min(w[0], w[1]) >= laws_[c].broken_opening()
+                              : w[0] > laws_[c].elastic_opening();
+      if (!enters) continue;
+      fill(state, static_cast<Index>(c));
+      changed = true;
+    }
+    return changed;
+  }
+
+  QuasiStaticRow commit(qs::State trial, double until, double dt, double rate, int iterations) {
+    QuasiStaticRow row;
+    for (std::size_t c = 0; c < trial.cells.size(); ++c) {
+      qs::Cell& cell = trial.cells[c];
+      const auto w = qs::openings(path_.edges()[c], trial.jumps);
+      if (cell.wet) {
+        const double lost = qs::leak(equations_, trial, static_cast<Index>(c), cell.pressure, dt).value;
+        cell.leaked += lost;
+        trial.leaked += lost;
+        cell.mass = mass(trial, c);
+        if (matrix_ && trial.time >= cell.exposed) matrix_->advance(cell.matrix, dt, cell.pressure);
+      }
+      for (std::size_t i = 0; i < 2; ++i)
+        cell.points[i].max_opening = std::max(cell.points[i].max_opening, w[i]);
+      const double damage =
+          laws_[c].damage(cell.points[0].max_opening) + laws_[c].damage(cell.points[1].max_opening);
+      if (cell.wet && damage >= 1.0) cell.exposed = std::min(cell.exposed, until);
+    }
+    trial.injected += rate * dt;
+    if (trial.connected) {
+      for (const qs::Inlet& inlet : trial.inlets) row.perforation_rate += inlet.rate;
+    }
+    const bool changes = until >= scene_.pump.next_change(state_.time);
+    trial.time = until;
+    step_ = dt * scene_.control.growth;
+    if (changes) event_ = until;
+    if (!trial.connected && trial.well_pressure >= *scene_.well.breakdown_pressure * (1.0 - 1e-12)) {
+      trial.connected = true;
+      trial.breakdown_time = event_ = until;
+    }
+    if (event_ == until) step_ = scene_.control.first;
+    state_ = std::move(trial);
+    describe(row);
+    row.step = dt;
+    row.rate = rate;
+    row.iterations = iterations;
+    return row;
+  }
+
+  void describe(QuasiStaticRow& row) const {
+    row.time = state_.time;
+    row.well_pressure = state_.well_pressure;
+    row.injected = state_.injected;
+    row.well_stored = scene_.well.storage * (state_.well_pressure - initial_well_);
+    row.fracture_volume = fracture_volume(state_);
+    row.leaked = state_.leaked;
+    row.mass_defect = row.injected - row.well_stored - (row.fracture_volume - initial_fracture_) - row.leaked;
+    row.least_pressure = std::numeric_limits<double>::infinity();
+    double wet = 0.0, touching = 0.0;
+    for (std::size_t c = 0; c < state_.cells.size(); ++c) {
+      const qs::Cell& cell = state_.cells[c];
+      const PathEdge& edge = path_.edges()[c];
+      const auto w = qs::openings(edge, state_.jumps);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double half = 0.5 * edge.length, most = cell.points[i].max_opening;
+        row.dissipated += half * laws_[c].dissipated(most);
+        if (most >= laws_[c].broken_opening()) row.broken_length += half;
+        if (most > laws_[c].elastic_opening()) row.damaged_length += half;
+        if (cell.wet && w[i] < std::min(most, scene_.closure.residual_aperture)) touching += half;
+      }
+      if (!cell.wet) continue;
+      wet += edge.length;
+      row.mean_opening += 0.5 * edge.length * (w[0] + w[1]);
+      row.least_pressure = std::min(row.least_pressure, cell.pressure);
+    }
+    row.mean_opening /= wet;
+    row.contact_fraction = touching / wet;
+    for (const qs::Inlet& inlet : state_.inlets) {
+      const auto n = static_cast<double>(state_.inlets.size());
+      row.fracture_pressure += state_.cells[at(inlet.cell)].pressure / n;
+      row.opening += qs::openings(path_.edges()[at(inlet.cell)], state_.jumps)[0] / n;
+    }
+  }
+
+  [[noreturn]] void stop(double dt) const {
+    throw NumericalError(
+        fmt::format("quasi-static stage: no step converges at {:g} s (tried down to {:.1e} s, well pressure "
+                    "{:.4g} MPa); the "
+                    "fracture may be about to snap: give the well an impedance, or the fluid a viscosity",
+                    state_.time, dt, state_.well_pressure * 1e-6));
+  }
+
+  QuasiStaticScene scene_;
+  Bulk bulk_;
+  FracturePath path_;
+  Condensation rock_;
+  std::vector<InterfaceLaw> laws_;
+  std::optional<MatrixDiffusion> matrix_;
+  qs::Equations equations_;
+  qs::State state_;
+  double step_ = 0.0, event_ = 0.0;
+  double initial_fracture_ = 0.0, initial_well_ = 0.0;
+  int rejected_ = 0, iterations_ = 0;
+};
+
+QuasiStatic::QuasiStatic(QuasiStaticScene scene) : solver_(std::make_unique<Solver>(std::move(scene))) {}
+QuasiStatic::~QuasiStatic() = default;
+
+const QuasiStaticScene& QuasiStatic::scene() const { return solver_->scene(); }
+double QuasiStatic::time() const { return solver_->time(); }
+QuasiStaticRow QuasiStatic::step(double end) { return solver_->step(end); }
+void QuasiStatic::run(double end, const std::function<void(const QuasiStaticRow&)>& record) {
+  while (time() < end) {
+    const QuasiStaticRow row = step(end);
+    if (record) record(row);
+  }
+}
+std::vector<FractureCell> QuasiStatic::cells() const { return solver_->cells(); }
+const FracturePath& QuasiStatic::path() const { return solver_->path(); }
+std::vector<Vec2> QuasiStatic::displacement() const { return solver_->displacement(); }
+double QuasiStatic::strength() const { return solver_->strength(); }
+int QuasiStatic::rejected_steps() const { return solver_->rejected(); }
+int QuasiStatic::newton_iterations() const { return solver_->iterations(); }
+
+}  // namespace crackle

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The plane-strain (KGD) fracture of the quasi-static stage against its limiting solutions.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "wing.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double young = 30e9, poisson = 0.25, rate = 1e-4;  // both wings
+const double modulus = young / (1.0 - poisson * poisson);
+
+QuasiStaticScene kgd(double step, double path, double toughness, double viscosity, double confinement) {
+  QuasiStaticScene s = wing::scene(wing::mesh(step, path, 20.0 * path), path, 1.0);
+  s.stiffness = isotropic_plane_strain(young, poisson);
+  s.pore_pressure = 10.56e6;
+  s.closure.residual_aperture = 1e-5;  // so that the notch holds next to nothing
+  s.stress = {0.0, -confinement, 0.0};
+  s.fracture_energy = toughness * toughness / modulus;
+  s.tensile_strength = 10e6;
+  s.fluid.viscosity = viscosity;
+  s.fluid.cavitation_pressure = 0.0;
+  s.fluid.reference_pressure = s.pore_pressure;
+  s.pump = Pump({{0.0, 1e9, 0.5 * rate}});
+  return s;
+}
+
+struct Found {
+  wing::Errors pressure, opening, length;
+  double defect = 0.0;
+};
+
+Found toughness_vertex(double step, double confinement, Wetting wetting = Wetting::tip_pressure) {
+  constexpr double toughness = 1e6;
+  QuasiStaticScene s = kgd(step, 12.0, toughness, 1e-6, confinement);
+  s.wetting = wetting;
+  QuasiStatic stage(s);
+  Found found;
+  stage.run(30.0, [&](const QuasiStaticRow& row) {
+    found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
+    if (row.time < 8.0) return;
+    const double a =
+        std::pow(modulus * 2.0 * row.fracture_volume / (2.0 * std::sqrt(M_PI) * toughness), 2.0 / 3.0);
+    const double p = toughness / std::sqrt(M_PI * a), w = 4.0 * p * a / modulus;
+    const double weight = row.step / row.time;
+    found.pressure.add(weight, row.fracture_pressure - s.pore_pressure - confinement, p);
+    found.opening.add(weight, row.opening, w);
+    found.length.add(weight, 0.5 * (row.broken_length + row.damaged_length), a);
+  });
+  std::printf(
+      "K vertex, h %.3f m, confinement %5.2f MPa: p %+.2f/%.2f %%, w %+.2f/%.2f %%, length %+.2f/%.2f %%, "
+      "mass %.0e; %d iterations, %d rejected\n",
+      step, confinement * 1e-6, found.pressure.mean(), found.pressure.rms(), found.opening.mean(),
+      found.opening.rms(), found.length.mean(), found.length.rms(), found.defect, stage.newton_iterations(),
+      stage.rejected_steps());
+  return found;
+}
+
+TEST(Kgd, ToughnessVertex) {
+  double free_pressure = 0.0;
+  for (const double confinement : {0.0, 9.44e6}) {
+    for (const double step : {0.5, 0.25}) toughness_vertex(step, confinement);
+    const Found found = toughness_vertex(0.125, confinement);
+    EXPECT_LT(found.pressure.rms(), 1.0);
+    EXPECT_LT(found.opening.rms(), 1.0);
+    EXPECT_LT(std::abs(found.length.mean()), 2.0);
+    EXPECT_LT(found.defect, 1e-8);
+    if (confinement == 0.0) free_pressure = found.pressure.mean();
+    EXPECT_NEAR(found.pressure.mean(), free_pressure, 1.0);
+  }
+}
+
+Found viscosity_vertex(double step, double relative) {
+  QuasiStaticScene s = kgd(step, 12.0, 1e4, 1e-3, 9.44e6);
+  s.control.relative = relative;
+  QuasiStatic stage(s);
+  Found found;
+  stage.run(30.0, [&](const QuasiStaticRow& row) {
+    found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
+    if (row.time < 8.0) return;
+    // Own solution of the zero-toughness similarity problem: γ, Ω(0), Π(0).
+    const double mu = 12e-3, scale = std::cbrt(mu / (modulus * row.time));
+    const double l = std::pow(modulus * rate * rate * rate * std::pow(row.time, 4) / mu, 1.0 / 6.0);
+    const double weight = row.step / row.time;
+    found.pressure.add(weight, row.well_pressure - s.pore_pressure - 9.44e6, 0.54482 * modulus * scale);
+    found.opening.add(weight, row.opening, 1.12583 * scale * l);
+    found.length.add(weight, row.broken_length, 0.61541 * l);
+  });
+  std::printf(
+      "M vertex, h %.3f m, steps %.1f %%: p %+.2f/%.2f %%, w %+.2f/%.2f %%, length %+.2f %%, mass %.0e; %d "
+      "iterations, %d rejected\n",
+      step, 100.0 * relative, found.pressure.mean(), found.pressure.rms(), found.opening.mean(),
+      found.opening.rms(), found.length.mean(), found.defect, stage.newton_iterations(),
+      stage.rejected_steps());
+  return found;
+}
+
+TEST(Kgd, ViscosityVertex) {
+  const Found coarse = viscosity_vertex(0.25, 0.02);
+  EXPECT_LT(coarse.pressure.rms(), 3.0);
+  EXPECT_LT(coarse.opening.rms(), 3.0);
+  EXPECT_LT(std::abs(coarse.length.mean()), 8.0);
+  const Found fine = viscosity_vertex(0.25, 0.005);
+  EXPECT_LT(fine.pressure.rms(), 1.0);
+  EXPECT_LT(fine.opening.rms(), 1.5);
+  EXPECT_LT(fine.defect, 1e-8);
+}
+
+/// Toughness to leak-off: a(t) of Q t = 2 √π K a^{3/2}/E' + 8 C_L ∫₀ᵃ √(t − t₀(x)) dx (two wings, two
+/// faces), t₀ linear over each of the pieces of the length.
+class CarterReference {
+ public:
+  CarterReference(double toughness, double leak_off, double length) : toughness_(toughness), leak_(leak_off) {
+    constexpr int pieces = 1500;
+    time_.push_back(0.0);
+    length_.push_back(0.0);
+    for (int i = 1; i <= pieces; ++i) {
+      const double s = static_cast<double>(i) / pieces;
+      length_.push_back(length * s * s);
+      double low = time_.back(), high = 2.0 * low + 1.0;
+      time_.push_back(high);
+      while (rate * high < held(high)) high *= 2.0;
+      for (int k = 0; k < 60; ++k) {
+        const double middle = time_.back() = 0.5 * (low + high);
+        (rate * middle < held(middle) ? low : high) = middle;
+      }
+    }
+  }
+  double length(double time) const {
+    const auto i =
+        static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), time) - time_.begin());
+    const double s = (time - time_[i - 1]) / (time_[i] - time_[i - 1]);
+    return length_[i - 1] + s * (length_[i] - length_[i - 1]);
+  }
+  double fracture(double a) const { return 2.0 * std::sqrt(M_PI) * toughness_ * std::pow(a, 1.5) / modulus; }
+
+ private:
+  double held(double t) const {
+    double sum = 0.0;
+    const std::size_t n = length_.size() - 1;
+    for (std::size_t j = 1; j <= n; ++j) {
+      const double from = time_[j - 1], to = j == n ? t : time_[j];
+      sum += (length_[j] - length_[j - 1]) * (2.0 / 3.0) *
+             (std::pow(t - from, 1.5) - std::pow(std::max(t - to, 0.0), 1.5)) / (to - from);
+    }
+    return fracture(length_[n]) + 8.0 * leak_ * sum;
+  }
+  double toughness_, leak_;
+  std::vector<double> time_, length_;
+};
+
+struct CarterFound {
+  Found found;
+  double efficiency = 0.0, reference = 0.0;
+};
+
+CarterFound carter(double step, double leak_off, double path) {
+  constexpr double toughness = 1e6;
+  const CarterReference reference(toughness, leak_off, path);
+  QuasiStaticScene s = kgd(step, path, toughness, 1e-6, 9.44e6);
+  s.leak_off = CarterLeakOff{leak_off, s.pore_pressure, 2e6};
+  QuasiStatic stage(s);
+  CarterFound c;
+  stage.run(100.0, [&](const QuasiStaticRow& row) {
+    c.found.defect = std::max(c.found.defect, std::abs(row.mass_defect) / row.injected);
+    if (row.time < 20.0) return;
+    const double a = reference.length(row.time), p = toughness / std::sqrt(M_PI * a);
+    const double weight = row.step / row.time;
+    c.found.pressure.add(weight, row.fracture_pressure - s.pore_pressure - 9.44e6, p);
+    c.found.opening.add(weight, row.opening, 4.0 * p * a / modulus);
+    c.efficiency = row.fracture_volume / row.injected;
+    c.reference = reference.fracture(a) / (rate * row.time);
+  });
+  std::printf(
+      "Carter %.0e, h %.3f m: p %+.2f/%.2f %%, w %+.2f/%.2f %%, efficiency %.4f of %.4f, mass %.0e; %d "
+      "iterations, %d rejected\n",
+      leak_off, step, c.found.pressure.mean(), c.found.pressure.rms(), c.found.opening.mean(),
+      c.found.opening.rms(), c.efficiency, c.reference, c.found.defect, stage.newton_iterations(),
+      stage.rejected_steps());
+  return c;
+}
+
+TEST(Kgd, CarterLeakOff) {
+  const CarterFound weak = carter(0.125, 1e-6, 22.0), strong = carter(0.125, 1e-5, 13.0);
+  EXPECT_LT(std::abs(weak.found.pressure.mean()), 1.0);
+  EXPECT_NEAR(weak.efficiency, weak.reference, 0.005);
+  EXPECT_LT(std::abs(strong.found.pressure.mean()), 4.0);
+  EXPECT_NEAR(strong.efficiency, strong.reference, 0.02);
+  EXPECT_LT(strong.found.defect, 1e-8);
+}
+
+}  // namespace
+}  // namespace crackle
