@@ -28,6 +28,7 @@ ClusterRule cluster_rule(const CatalogOptions& options, const std::vector<Seismi
     rule.radius = quantity("--radius", options.radius, "m");
   } else if (!events.empty()) {
     std::vector<double> lengths;
+    lengths.reserve(events.size());
     for (const SeismicEvent& e : events) lengths.push_back(e.length / e.edges);
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());

@@ -87,6 +87,7 @@ bool follow_edges(SlipMemory& memory, std::span<const SlidingEdge> edges, StepTi
     std::inplace_merge(all.begin(), all.begin() + middle, all.end(), less);
   };
   std::vector<SlipMemory::Event> events;
+  events.reserve(fresh.size());
   for (const SlipEdge& s : fresh) events.push_back({s.event, 0.0});
   merge_in(memory.edges, fresh, [](const SlipEdge& a, const SlipEdge& b) { return a.edge < b.edge; });
   merge_in(memory.events, events, [](const auto& a, const auto& b) { return a.name < b.name; });

@@ -30,6 +30,7 @@ SeismicEvent event(double time, Vec2 place) {
 
 TEST(Clusters, AChainIsOne) {
   std::vector<SeismicEvent> events;
+  events.reserve(10);
   for (int i = 0; i < 10; ++i) events.push_back(event(i * 1e-6, {i * 3e-3, 0.0}));
   const auto clusters = cluster_events(events, {3.1e-3, 1.1e-6}, 2.0);
   ASSERT_EQ(clusters.size(), 1U);
@@ -118,6 +119,7 @@ TEST(Clusters, ConserveMomentAndEnergy) {
   const auto again = cluster_events(reversed, {0.03, 5e-5}, 1.0);
   const auto sizes = [](const std::vector<Cluster>& all) {
     std::vector<std::size_t> s;
+    s.reserve(all.size());
     for (const Cluster& c : all) s.push_back(c.events.size());
     std::sort(s.begin(), s.end());
     return s;

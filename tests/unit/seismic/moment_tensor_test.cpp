@@ -13,8 +13,8 @@
 namespace crackle {
 namespace {
 
-constexpr double E = 35e9, nu = 0.27;
-constexpr Lame granite{E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
+constexpr double young = 35e9, nu = 0.27;
+constexpr Lame granite{young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
 constexpr Vec2 along_x{2.0, 0.0};  // face a to the left: its outward normal is -y
 
 TEST(MomentTensor, OfAnOpeningEdge) {
