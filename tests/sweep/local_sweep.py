@@ -19,6 +19,8 @@ check("10 waiting" in sweep("status", tiny.folder), "nothing has run yet")
 first = subprocess.Popen(["/usr/bin/python3", str(SWEEP), "local", str(tiny.folder), "--cores", "2"],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 tiny.wait_for(LONG_RUN, ("running", "done"))
+check(f"{LONG_RUN}: running" in sweep("status", tiny.folder), "it is seen to run")
+check("under way" in sweep("row", tiny.folder, LONG_RUN, code=1), "and is not run twice at a time")
 os.kill(tiny.status(LONG_RUN)["process"], signal.SIGKILL)
 said = first.communicate(timeout=120)[0]
 check(first.returncode == 1 and "1 of 10 runs are not done" in said, f"the killed run is seen: {said}")
