@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../granite.hpp"
+#include "../result.hpp"
 
 namespace crackle {
 namespace {
@@ -102,6 +103,9 @@ TEST(Kirsch, ExcavationWithAndWithoutPressure) {
         granite::make({.segments = segments, .width = 8.0, .fine_radius = 0.12, .size_coarse = 100.0 * h}));
   }
   for (const double pressure : {0.0, 11.47e6}) {
+    const char* name = pressure > 0.0 ? "A2 Kirsch, excavated and pressurised" : "A2 Kirsch, excavated";
+    const Check displacement(std::string(name) + ": displacement of the wall"),
+        stress(std::string(name) + ": stress");
     std::vector<Errors> all;
     for (const auto& mesh : meshes) {
       const Errors e = errors(mesh, granite::anisotropic, pressure);
@@ -120,6 +124,8 @@ TEST(Kirsch, ExcavationWithAndWithoutPressure) {
     const double order_p = std::log2(all[0].pairs / all[2].pairs) / halvings;
     std::printf("p %5.2f MPa: order %.2f of displacement, %.2f of stress, %.2f of pairs\n", pressure / 1e6,
                 order_u, order_s, order_p);
+    displacement.result(all[2].displacement, order_u);
+    stress.result(all[2].stress, order_s);
     EXPECT_GT(order_u, 1.6);
     EXPECT_GT(order_s, 0.85);
     EXPECT_GT(order_p, 0.85);

@@ -38,7 +38,7 @@ class Scripts(unittest.TestCase):
                     self.assertEqual(command("bash", "-n", file).stderr, "")
 
     def test_help(self):
-        for name in ("setup", "build", "run", "test", "check_style"):
+        for name in ("setup", "build", "run", "test", "check_style", "verification_table"):
             with self.subTest(name):
                 result = command(ROOT / "scripts" / name, "--help")
                 self.assertEqual((result.returncode, result.stderr), (0, ""))

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "../../result.hpp"
+
 namespace crackle {
 namespace {
 
@@ -91,6 +93,8 @@ TEST(EvansMarathe, YGeoCalibrationDissipatesWhatYGeoDoes) {
 }
 
 TEST(EvansMarathe, MixedModeSofteningFollowsTheEllipse) {
+  const Check check("B3 mixed mode against the ellipse");
+  double worst = 0.0;
   const auto law = find_law("evans_marathe");
   const auto m = granite(Calibration::y_geo);
   const double length = 3e-3, k = m.penalty / length;
@@ -115,8 +119,10 @@ TEST(EvansMarathe, MixedModeSofteningFollowsTheEllipse) {
     const double ellipse = std::hypot(normal / g1, shear / g2);
     std::printf("psi %2d deg: ellipse %.5f (error %.1e)\n", degrees, ellipse, ellipse - 1.0);
     EXPECT_GE(p.damage, 1.0);
+    worst = std::max(worst, std::abs(ellipse - 1.0));
     EXPECT_NEAR(ellipse, 1.0, 0.02);
   }
+  check.result(worst);
 }
 
 TEST_P(EveryLaw, StrengthFollowsMohrCoulomb) {

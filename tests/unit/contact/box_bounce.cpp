@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "../../result.hpp"
 #include "world.hpp"
 
 namespace crackle::test {
@@ -20,6 +21,7 @@ Mesh slab(double width, double height) {
 }  // namespace
 
 void bounce_in_box(int bounces, double fraction_of_step) {
+  const Check check("C  restitution, " + std::to_string(bounces) + " bounces in a box");
   const double room = 0.13, thick = 0.3, overlap = 0.05;  // walls that overlap leave no slit
   const double wide = room + 2 * thick, off = 0.5 * (room + thick);
   World world(
@@ -49,6 +51,7 @@ void bounce_in_box(int bounces, double fraction_of_step) {
   }
   std::printf("  %d bounces, %lld steps: |e - 1| %.2e at most\n", bounces,
               static_cast<long long>(world.state.step), most);
+  check.result(most);
   EXPECT_LT(most, 1e-3);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "../../result.hpp"
 #include "world.hpp"
 
 namespace crackle::test {
@@ -44,6 +45,7 @@ TEST(ContactFriction, StaysOnAGentleSlope) {
 }
 
 TEST(ContactFriction, SlidesDownASteepSlope) {
+  const Check check("C  block that slides down a slope: acceleration");
   World world = block_on_base(0.3, 13);
   const double slope = std::acos(-1.0) / 6.0;
   world.gravity = g * Vec2{std::sin(slope), -std::cos(slope)};
@@ -56,6 +58,7 @@ TEST(ContactFriction, SlidesDownASteepSlope) {
   const double a = (world.velocity(0).x - v) / (world.state.time - t);
   const double exact = g * (std::sin(slope) - 0.3 * std::cos(slope));
   std::printf("  a = %.5f m/s2, exact %.5f: off by %.2e\n", a, exact, a / exact - 1.0);
+  check.result(a / exact - 1.0);
   EXPECT_NEAR(a / exact, 1.0, 0.01);
 }
 
@@ -87,6 +90,8 @@ Slide slide_to_rest(int cuts) {
 }
 
 TEST(ContactFriction, SlidesToRest) {
+  const Check check("C  block that slides to rest: distance");
+  double worst = 0.0;
   double uncut = 0.0;
   for (const int cuts : {2, 5, 13, 37}) {
     const Slide s = slide_to_rest(cuts);
@@ -95,6 +100,7 @@ TEST(ContactFriction, SlidesToRest) {
         "viscous "
         "%.5f of %.5f J/m, normal velocity at most %.1e m/s\n",
         cuts, s.distance, s.time, s.rubbed, s.damped, s.lost, s.bump);
+    worst = std::max(worst, std::abs(s.distance / 0.101936 - 1.0));
     EXPECT_NEAR(s.distance / 0.101936, 1.0, 0.001);
     EXPECT_NEAR(s.time / 0.203874, 1.0, 0.01);
     EXPECT_NEAR((s.rubbed + s.damped) / s.lost, 1.0, 0.001);
@@ -103,6 +109,7 @@ TEST(ContactFriction, SlidesToRest) {
     if (cuts == 2) uncut = s.bump;
     EXPECT_LE(s.bump, uncut);
   }
+  check.result(worst);
 }
 
 TEST(ContactFriction, DissipationNeverFalls) {

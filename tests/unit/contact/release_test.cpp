@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include "../../result.hpp"
 #include "crackle/cohesive/cohesive.hpp"
 #include "crackle/contact/general_contact.hpp"
 
@@ -117,6 +118,8 @@ struct CutBar {
 class ContactRelease : public testing::TestWithParam<bool> {};
 
 TEST_P(ContactRelease, HandsOverWithoutAJump) {
+  const Check check(std::string("C  closed faces handed over to general contact, borne ") +
+                    (GetParam() ? "by the rock's stress" : "by overlap") + ": jump of force");
   CutBar bar;
   const double overlap = 1e-6, pressure = overlap * penalty / side;
   if (GetParam()) bar.bear_at_no_overlap(pressure);
@@ -151,6 +154,7 @@ TEST_P(ContactRelease, HandsOverWithoutAJump) {
       "end)\n",
       most, norm(total_after - total_before) / norm(total_before));
   std::printf("  energy %.6f -> %.6f J/m, booked as lost %.6f\n", energy_before, energy_after, lost);
+  check.result(most);
   EXPECT_LT(most, 1e-9);
   EXPECT_LT(norm(total_after - total_before) / norm(total_before), 0.08);
   EXPECT_NEAR(energy_before, energy_after + lost, 1e-9 * energy_before);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "../../result.hpp"
 #include "world.hpp"
 
 namespace crackle::test {
@@ -15,6 +16,7 @@ class ContactStack : public testing::TestWithParam<int> {};
 
 TEST_P(ContactStack, BaseBearsTheWeight) {
   const int n = GetParam();
+  const Check check("C  stack of " + std::to_string(n) + " blocks: force on the base");
   std::vector<Mesh> bodies{structured_rectangle({-0.2, -0.1}, {0.2, 0.0}, 5, 1, MeshPattern::right)};
   for (int i = 0; i < n; ++i) {
     bodies.push_back(
@@ -32,6 +34,7 @@ TEST_P(ContactStack, BaseBearsTheWeight) {
   const double base = -world.vertical_force(0);
   std::printf("  %d blocks: base bears %.4f N/m of %.4f, off by %.2e; fastest node %.2e m/s\n", n, base,
               weight, base / weight - 1.0, fastest);
+  check.result(base / weight - 1.0);
   EXPECT_NEAR(base / weight, 1.0, 1e-3);
   EXPECT_LT(fastest, 1e-5);
 }

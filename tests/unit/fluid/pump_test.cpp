@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../../granite.hpp"
+#include "../../result.hpp"
 
 namespace crackle {
 namespace {
@@ -33,6 +34,7 @@ TEST(CompressibleFluid, MassAndPressureAreInverse) {
 }
 
 TEST(Pump, RigidCavity) {
+  const Check check("D1 pump into a rigid cavity: pressure");
   const auto mesh = granite::make({.segments = 105, .width = 1.0, .fine_radius = 0.06, .size_coarse = 0.1});
   State state = make_tied_state(mesh);  // masses are not set: inverse mass 0 holds every node
   Fluid fluid(state, {water, 1000.0, 0.0}, Pump({{0.0, 1.0, rate}}));
@@ -51,12 +53,14 @@ TEST(Pump, RigidCavity) {
   std::printf(
       "rigid cavity: p = K ln(1 + Qt/V) within %.1e; polygon's area %.4e below the circle's; %.3f MPa/ms\n",
       worst, 1.0 - area / circle, slope * 1e-9);
+  check.result(worst);
   EXPECT_LT(worst, 1e-10);
   EXPECT_NEAR(area / circle - 1.0, -5.97e-4, 1e-6);
   EXPECT_NEAR(slope * 1e-9, 18.207, 0.02);
 }
 
 TEST(Pump, ElasticHole) {
+  const Check check("D1 pump into an elastic hole: pressure");
   Scene scene =
       granite::scene(granite::make({.segments = 52, .width = 2.0, .fine_radius = 0.08, .size_coarse = 0.1}));
   scene.damping.ratio = 0.1;
@@ -79,6 +83,7 @@ TEST(Pump, ElasticHole) {
   }
   std::printf("elastic hole from 0.3 to 1 ms: pressure within %.2f %%; injected = stored within %.0e\n",
               100 * worst, injected_error);
+  check.result(worst);
   EXPECT_LT(worst, 0.01);
   EXPECT_LT(injected_error, 1e-10);
 }

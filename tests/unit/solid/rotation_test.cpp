@@ -3,6 +3,7 @@
 // Rigid rotation through 360 degrees: no stress, no forces, and in-situ stress turns with the body.
 #include <gtest/gtest.h>
 
+#include "../../result.hpp"
 #include "static_solve.hpp"
 
 namespace crackle {
@@ -24,6 +25,7 @@ void rotate(State& state, double angle) {
 }
 
 TEST(Rotation, MakesNoStressAndNoForces) {
+  const Check check("A1 rigid rotation: stress over E");
   const auto mesh = patch();
   const Bulk bulk(*mesh, granite::stiffness(), granite::density, {}, {});
   State tied = make_tied_state(mesh), split = make_split_state(mesh);
@@ -44,6 +46,7 @@ TEST(Rotation, MakesNoStressAndNoForces) {
   }
   std::printf("rotation: stress %.1e E, forces %.1e E m tied, %.1e E m with elements\n", stress, tied_force,
               split_force);
+  check.result(stress);
   EXPECT_LT(stress, 1e-10);
   EXPECT_LT(tied_force, 1e-12);
   EXPECT_LT(split_force, 1e-12);

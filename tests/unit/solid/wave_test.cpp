@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../../granite.hpp"
+#include "../../result.hpp"
 
 namespace crackle {
 namespace {
@@ -51,19 +52,24 @@ double speed_error(Vec2 motion, double exact, const PlaneStiffness& stiffness = 
 }
 
 TEST(Wave, SpeedOfP) {
+  const Check check("A4 speed of P waves");
   const double error = speed_error({1, 0}, 4182.58);
   std::printf("P wave: speed %+.3f %%\n", 100 * error);
+  check.result(error);
   EXPECT_LT(std::abs(error), 0.01);
 }
 
 TEST(Wave, SpeedOfS) {
+  const Check check("A4 speed of S waves");
   const double error = speed_error({0, 1}, 2347.72);
   std::printf("S wave: speed %+.3f %%\n", 100 * error);
+  check.result(error);
   EXPECT_LT(std::abs(error), 0.01);
 }
 
 // The shale of validation.md A5: P waves along and across its bedding, and S waves.
 TEST(Wave, SpeedsInBeddedRock) {
+  const Check check("A5 speeds of waves in bedded rock");
   const TransverseIsotropy level{40e9, 20e9, 0.2, 0.25, 9e9, 0.0};
   TransverseIsotropy upright = level;
   upright.bedding_angle = 0.5 * std::numbers::pi;
@@ -74,6 +80,7 @@ TEST(Wave, SpeedsInBeddedRock) {
                            speed_error({0, 1}, shear, transversely_isotropic_plane_strain(level))};
   std::printf("bedded rock: P along %+.3f %%, P across %+.3f %%, S %+.3f %%\n", 100 * errors[0],
               100 * errors[1], 100 * errors[2]);
+  check.result(std::max({std::abs(errors[0]), std::abs(errors[1]), std::abs(errors[2])}));
   for (const double error : errors) EXPECT_LT(std::abs(error), 0.01);
 }
 
