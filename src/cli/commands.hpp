@@ -17,6 +17,7 @@ struct CaseOptions {
 
 struct RunOptions : CaseOptions {
   std::string output;  ///< run folder; empty: runs/<case name>
+  std::string resume;  ///< folder of an interrupted run, instead of a case; empty: a new run
   int threads = 0;     ///< 0: all cores
   bool quiet = false;
 };

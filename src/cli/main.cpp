@@ -74,9 +74,19 @@ class CommandLine {
     add_case_options(*command, run_);
     command->add_option("-o,--output", run_.output, "Run folder (default: runs/<case name>)")
         ->type_name("DIR");
+    auto* resume =
+        command
+            ->add_option("--resume", run_.resume, "Go on with the interrupted run in DIR, instead of a case")
+            ->type_name("DIR");
+    command->get_option("case")->required(false);
+    for (const char* other : {"case", "--set", "--seed", "--output"})
+      resume->excludes(command->get_option(other));
     add_threads(*command, run_.threads);
     command->add_flag("-q,--quiet", run_.quiet, "Print errors only");
-    command->callback([this] { code_ = crackle::run_command(run_); });
+    command->callback([this] {
+      if (run_.case_file.empty() && run_.resume.empty()) throw CLI::RequiredError("case");
+      code_ = crackle::run_command(run_);
+    });
   }
   void add_check() {
     auto* command =

@@ -18,7 +18,15 @@ std::string duration(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
+// A terminal that is gone is no reason to stop a run.
+void put(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
+
+void print_line(const std::string& line) { put(line + "\n"); }
 
 Progress::Progress(double end_time, bool quiet)
     : end_time_(end_time),
@@ -48,22 +56,23 @@ void Progress::finish(const Now& now) {
 
 void Progress::print(const Now& now, bool last) {
   const double share = now.time / end_time_;
+  if (first_share_ < 0.0) first_share_ = share;
+  const double done = share - first_share_;
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const std::string left = last            ? fmt::format("took {}", duration(wall))
-                           : share > 0.005 ? fmt::format("{} left", duration(wall * (1.0 - share) / share))
-                                           : std::string("...");
+  const std::string left = last           ? fmt::format("took {}", duration(wall))
+                           : done > 0.005 ? fmt::format("{} left", duration(wall * (1.0 - share) / done))
+                                          : std::string("...");
   const std::string text =
       fmt::format("{:5.1f} %  t = {:.3f} of {:.3f} ms  step {}  {:.2f} MPa  {} broken  {}", 100.0 * share,
                   1e3 * now.time, 1e3 * end_time_, now.step, 1e-6 * now.pressure, now.broken, left);
   if (!terminal_) {
-    fmt::print(stderr, "{}\n", text);
+    print_line(text);
     return;
   }
   constexpr int width = 24;
   const int full = std::clamp(static_cast<int>(share * width), 0, width);
-  fmt::print(stderr, "\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(full), '#'),
-             std::string(static_cast<std::size_t>(width - full), '.'), text, last ? "\n" : "");
-  std::fflush(stderr);
+  put(fmt::format("\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(full), '#'),
+                  std::string(static_cast<std::size_t>(width - full), '.'), text, last ? "\n" : ""));
 }
 
 }  // namespace crackle

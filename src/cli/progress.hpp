@@ -3,8 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace crackle {
+
+/// A line on the terminal; nothing happens where there is none any more.
+void print_line(const std::string& line);
 
 /// Progress of a run on the terminal: a bar renewed twice a second, or one line per 5 % when the
 /// output is not a terminal.
@@ -28,6 +32,7 @@ class Progress {
   double end_time_;
   bool quiet_, terminal_;
   int percent_ = -1;
+  double first_share_ = -1.0;  // of the end time, when first shown
   std::chrono::steady_clock::time_point start_, last_;
 };
 

@@ -24,7 +24,6 @@ struct GeneralContact::Search {
   FreeSides sides;
   std::vector<PlacedSide> placed;
   Candidates candidates;
-  double moved = 0.0;  // bound of the motion against one another since the lists were made [m]
   Index nodes = 0;     // when the sides were looked up
   bool ready = false;  // the sides have been looked up
   bool any_released = false;
@@ -32,7 +31,7 @@ struct GeneralContact::Search {
   // True once something can touch: several bodies, or something released.
   bool needed() const { return sides.separate_bodies() || any_released; }
 
-  void refresh(const State& state, bool sides_changed) {
+  void refresh(State& state, bool sides_changed) {
     if (sides_changed || !ready || nodes != state.node_count()) sides.build(state);
     nodes = state.node_count();
     sides.place(state, placed);
@@ -41,11 +40,26 @@ struct GeneralContact::Search {
       const Vec2 v = state.velocity[at(sides[s].node[0])], w = state.velocity[at(sides[s].node[1])];
       fastest2 = std::max({fastest2, dot(v, v), dot(w, w)});
     }
-    moved += 2.0 * std::sqrt(fastest2) * state.time_step;
-    if (ready && !sides_changed && moved <= candidates.buffer()) return;
+    state.contact.moved += 2.0 * std::sqrt(fastest2) * state.time_step;
+    if (ready && !sides_changed && state.contact.moved <= candidates.buffer()) return;
     candidates.build(sides, placed);
-    moved = 0.0;
+    state.contact.listed.clear();
+    for (const PlacedSide& side : placed) state.contact.listed.push_back({side.start, side.end});
+    state.contact.moved = 0.0;
     ready = true;
+  }
+
+  // As after the refresh() that the state went through last.
+  void rebuild(const State& state) {
+    any_released = std::any_of(state.cohesive.status.begin(), state.cohesive.status.end(),
+                               [](CohesiveStatus status) { return status == CohesiveStatus::released; });
+    ready = state.contact.broken >= 0;
+    if (!ready) return;
+    sides.build(state);
+    nodes = state.node_count();
+    placed.clear();
+    for (const auto& [start, end] : state.contact.listed) placed.push_back({start, end});
+    candidates.build(sides, placed);
   }
 };
 
@@ -54,6 +68,8 @@ GeneralContact::GeneralContact(const State& state, const ContactMaterial& materi
 GeneralContact::~GeneralContact() = default;
 GeneralContact::GeneralContact(GeneralContact&&) noexcept = default;
 GeneralContact& GeneralContact::operator=(GeneralContact&&) noexcept = default;
+
+void GeneralContact::rebuild(const State& state) { search_->rebuild(state); }
 
 void GeneralContact::update(State& state) {
   released_.clear();

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "crackle/core/errors.hpp"
@@ -19,6 +25,25 @@ int put(std::FILE* stream, std::string_view text) {
   return errno != 0 ? errno : EIO;
 }
 
+/// On the disk, not only with the operating system; the errno value on failure, else 0. What cannot
+/// be synced (a pipe, some network file systems) counts as done.
+int bring_to_disk(int descriptor) { return fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno; }
+
+void write_file(const std::string& path, std::string_view text, bool durable) {
+  const std::string unfinished = path + ".tmp";
+  std::FILE* stream = std::fopen(unfinished.c_str(), "wb");
+  if (stream == nullptr) throw_file_error(path, "write", errno);
+  int reason = put(stream, text);
+  if (durable && reason == 0) reason = bring_to_disk(fileno(stream));
+  // close() is where a network file system reports what it could not store
+  if (std::fclose(stream) != 0 && reason == 0) reason = errno;
+  if (reason != 0) {
+    std::remove(unfinished.c_str());
+    throw_file_error(path, "write", reason);
+  }
+  rename_finished(path);
+}
+
 }  // namespace
 
 void throw_file_error(const std::string& path, const std::string& what, int errno_value) {
@@ -29,18 +54,16 @@ void throw_file_error(const std::string& path, const std::string& what, int errn
   throw CaseError(message);
 }
 
-void write_whole_file(const std::string& path, std::string_view text) {
-  const std::string unfinished = path + ".tmp";
-  std::FILE* stream = std::fopen(unfinished.c_str(), "wb");
-  if (stream == nullptr) throw_file_error(path, "write", errno);
-  int reason = put(stream, text);
-  // close() is where a network file system reports what it could not store
-  if (std::fclose(stream) != 0 && reason == 0) reason = errno;
-  if (reason != 0) {
-    std::remove(unfinished.c_str());
-    throw_file_error(path, "write", reason);
-  }
-  rename_finished(path);
+void write_whole_file(const std::string& path, std::string_view text) { write_file(path, text, false); }
+
+void write_durable_file(const std::string& path, std::string_view text) {
+  write_file(path, text, true);
+  // The name is on the disk once the folder is.
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  bring_to_disk(descriptor);
+  close(descriptor);
 }
 
 void rename_finished(const std::string& path) {
@@ -74,7 +97,28 @@ AppendedFile::AppendedFile(const std::string& path, Mode mode)
 AppendedFile::~AppendedFile() { std::fclose(stream_); }  // nothing is left to flush: append() did
 
 void AppendedFile::append(std::string_view text) {
+  struct stat now {};
+  if (fstat(fileno(stream_), &now) == 0 && now.st_nlink == 0) throw_file_error(path_, "write", ENOENT);
   if (const int reason = put(stream_, text); reason != 0) throw_file_error(path_, "write", reason);
+}
+
+std::int64_t AppendedFile::size() const {
+  struct stat now {};
+  return fstat(fileno(stream_), &now) == 0 ? now.st_size : 0;
+}
+
+void AppendedFile::sync() {
+  if (const int reason = bring_to_disk(fileno(stream_)); reason != 0)
+    throw_file_error(path_, "write", reason);
+}
+
+void AppendedFile::cut(std::int64_t size) {
+  if (ftruncate(fileno(stream_), size) != 0) throw_file_error(path_, "cut", errno);
+}
+
+bool AppendedFile::lock() {
+  // A file system without locks gives none: then there is no telling.
+  return flock(fileno(stream_), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 }  // namespace crackle

@@ -2,6 +2,7 @@
 // Files whose every write is checked. Private to io.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ namespace crackle {
 /// Writes the whole text to "<path>.tmp" and renames it to path: whoever reads path sees the old
 /// file or the new one, never a part. @throws CaseError; "<path>.tmp" is removed then
 void write_whole_file(const std::string& path, std::string_view text);
+
+/// The same for a file that has to outlive a power cut: on the disk when this returns. @throws CaseError
+void write_durable_file(const std::string& path, std::string_view text);
 
 /// Renames "<path>.tmp" to path. @throws CaseError
 void rename_finished(const std::string& path);
@@ -34,8 +38,16 @@ class AppendedFile {
   AppendedFile(const AppendedFile&) = delete;
   AppendedFile& operator=(const AppendedFile&) = delete;
 
-  /// @throws CaseError
+  /// @throws CaseError; also when the file has been deleted meanwhile
   void append(std::string_view text);
+  /// Bytes in the file.
+  std::int64_t size() const;
+  /// Brings all of it to the disk. @throws CaseError
+  void sync();
+  /// Cuts the file down to its first bytes. @throws CaseError
+  void cut(std::int64_t size);
+  /// Keeps others from locking it as long as it is open. @return false if another process has
+  bool lock();
 
  private:
   std::string path_;

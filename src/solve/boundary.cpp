@@ -12,7 +12,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
                                      std::span<const Vec2> loads) {
-  std::map<Index, Node> nodes;
+  std::map<Index, BoundaryNode> nodes;
   for (const Edge& edge : state.mesh->edges) {
     if (edge.kind != EdgeKind::outer) continue;
     const Index first = 3 * edge.triangle[0] + edge.side[0];
@@ -25,7 +25,7 @@ AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& s
     const double p = density * c.p * half, q = density * c.s * half;
     const Sym2 dashpot{q + (p - q) * n.x * n.x, q + (p - q) * n.y * n.y, (p - q) * n.x * n.y};
     for (const Index corner : {first, second}) {
-      Node& node = nodes[state.node_of_corner[at(corner)]];
+      BoundaryNode& node = nodes[state.node_of_corner[at(corner)]];
       node.dashpot = node.dashpot + dashpot;
     }
   }
@@ -39,12 +39,12 @@ AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& s
 }
 
 void AbsorbingBoundary::begin(const State& state) {
-  for (Node& n : nodes_) n.velocity_before = state.velocity[at(n.node)];
+  for (BoundaryNode& n : nodes_) n.velocity_before = state.velocity[at(n.node)];
 }
 
 double AbsorbingBoundary::apply(State& state, double dt) const {
   double half = 0.0;
-  for (const Node& n : nodes_) {
+  for (const BoundaryNode& n : nodes_) {
     // v' = v + w f − ½ w C (v⁻ + v'),  w = Δt / m; v has the rock's kick already, v⁻ not
     const double w = dt * state.inverse_mass[at(n.node)];
     Vec2& v = state.velocity[at(n.node)];
@@ -65,7 +65,7 @@ double AbsorbingBoundary::apply(State& state, double dt) const {
 }
 
 void AbsorbingBoundary::add_loads(std::span<Vec2> node_forces) const {
-  for (const Node& n : nodes_) node_forces[at(n.node)] += n.load;
+  for (const BoundaryNode& n : nodes_) node_forces[at(n.node)] += n.load;
 }
 
 }  // namespace crackle

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/core/parallel.hpp"
@@ -127,6 +128,45 @@ Simulation::Simulation(Scene scene)
   settle();
 }
 
+Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
+    : scene_(std::move(scene)),
+      state_(std::move(state)),
+      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density, scene_.stress,
+            scene_.damping),
+      stable_(memory.stable),
+      stressed_(std::move(memory.stressed)),
+      slowed_(memory.slowed),
+      rough_insertions_(memory.rough_insertions),
+      reference_(memory.reference),
+      scale_(memory.scale),
+      geostatic_slips_(memory.geostatic_slips) {
+  const Index triangles = scene_.mesh->triangle_count();
+  block_has_elements_.assign(at(block_count(triangles)), 0);
+  block_stressed_ = block_has_elements_;
+  for (Index t = 0; t < triangles; ++t) {
+    const auto sides = std::span(state_.element_on_side).subspan(at(3 * t), 3);
+    if (std::ranges::any_of(sides, [](Index code) { return code >= 0; }))
+      block_has_elements_[at(t / block_size)] = 1;
+    if (!stressed_.empty() && stressed_[at(t)]) block_stressed_[at(t / block_size)] = 1;
+  }
+  if (!stressed_.empty()) set_screen();
+  if (scene_.law) cohesive_.emplace(scene_.law, scene_.cohesive);
+  if (scene_.contact.normal_penalty > 0.0) {
+    contact_.emplace(state_, scene_.contact);
+    contact_->rebuild(state_);
+  }
+  if (!scene_.law || scene_.insertion.on_demand) corner_force_.resize(state_.node_of_corner.size());
+  if (scene_.fluid) fluid_.emplace(state_, *scene_.fluid, scene_.pump);
+  if (scene_.absorbing_boundary) boundary_.emplace(std::move(memory.boundary));
+}
+
+SimulationMemory Simulation::memory() const {
+  return {reference_, scale_,
+          stable_,    geostatic_slips_,
+          slowed_,    rough_insertions_,
+          stressed_,  boundary_ ? boundary_->nodes() : std::vector<BoundaryNode>{}};
+}
+
 void Simulation::settle() {
   const Mesh& mesh = *scene_.mesh;
   // Forces at the corners now, rock and fluid: the cohesive elements are set to bear them.
@@ -208,11 +248,15 @@ void Simulation::relax() {
                   most, geostatic_slips_));
 }
 
-void Simulation::prepare_insertion() {
+void Simulation::set_screen() {
   const CohesiveMaterial& m = scene_.cohesive;
   // A utilisation of the threshold in opening and slip together is at least its √½ in one of them.
   const double share = std::sqrt(0.5) * scene_.insertion.threshold;
   screen_ = {share * m.tensile_strength, share * m.cohesion, share * m.tan_friction};
+}
+
+void Simulation::prepare_insertion() {
+  set_screen();
   stressed_.assign(scene_.mesh->triangles.size(), 0);
   block_stressed_.assign(block_has_elements_.size(), 0);
   std::vector<Index> cracks = scene_.cracks;

@@ -70,6 +70,9 @@ class GeneralContact {
   /// before, or viscosity would see half a step's velocity). @param dt [s]
   void apply(State& state, double dt) const;
 
+  /// Rebuilds what is derived from the state (after a resume).
+  void rebuild(const State& state);
+
   /// Recoverable energy at the last update() [J/m].
   double stored_energy(const State& state) const;
 

@@ -157,6 +157,7 @@ struct Case {
     double fields_every = 0.0;        ///< simulated time between field frames [s]; 0: end_time / 20
     std::vector<std::string> fields;  ///< names of fields written; empty: the default set
     double history_every = 0.0;       ///< [s]; 0: end_time / 1000
+    double checkpoint_every = 600.0;  ///< wall-clock time between checkpoints [s]; 0: only on a signal
   } output;
 };
 

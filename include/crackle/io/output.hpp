@@ -88,6 +88,21 @@ struct RunStatus {
   double wall_left = 0.0;   ///< estimate [s]; NaN where there is none yet (written as null)
 };
 
+/// How far the growing files of a run folder have come; goes into a checkpoint.
+struct FolderMarks {
+  std::int64_t history_bytes = 0;   ///< of history.csv
+  std::int64_t events_bytes = 0;    ///< of events.csv
+  std::vector<double> frame_times;  ///< of the frames in fields.pvd and fractures.pvd [s]
+};
+
+/// A checkpoint of a run folder.
+struct StoredCheckpoint {
+  std::string path;
+  std::string bytes;
+  std::int64_t step = 0;  ///< of the run
+  std::string program;    ///< version of crackle that wrote it
+};
+
 class AppendedFile;
 
 /// The folder of one run: every file that crackle writes goes through here. Files are written
@@ -96,11 +111,18 @@ class AppendedFile;
 /// The constructor only makes the folder and run.log; a folder counts as holding a run once
 /// anything else is written. A case that fails before its first result (in the mesher, say) so
 /// leaves a folder that can be used again. Not thread-safe.
+///
+/// As long as it lives no other process gets the folder (run.log is locked).
 class RunFolder {
  public:
-  /// Creates the folder (and parents). @throws CaseError when it cannot be written or already
-  /// holds a run; nothing there is touched then.
-  explicit RunFolder(const std::string& path);
+  enum class Use {
+    begin,   ///< a new run
+    resume,  ///< one that was interrupted
+  };
+  /// Creates the folder (and parents), or opens that of a run to resume. @throws CaseError when it
+  /// cannot be written, another process runs in it, or it already holds a run (to begin) or none (to
+  /// resume); nothing there is touched then.
+  explicit RunFolder(const std::string& path, Use use = Use::begin);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
@@ -122,6 +144,20 @@ class RunFolder {
   /// Renews status.json, with the wall-clock time, host and process. Does not yet make the folder hold a
   /// run.
   void write_status(const RunStatus& status);
+  /// Writes checkpoint_a.h5 or checkpoint_b.h5, over the older of them.
+  void write_checkpoint(const std::string& bytes);
+  /// Those of its checkpoints that are whole, the newest first; `refused` gets a line for any other.
+  std::vector<StoredCheckpoint> checkpoints(std::vector<std::string>& refused) const;
+  /// Once the run has come to its end.
+  void remove_checkpoints();
+  /// Whether the run came to its end time.
+  bool is_done() const;
+  /// Brings the growing files to the disk; says how far they are.
+  FolderMarks marks();
+  /// Cuts the growing files back to where they were, and takes away what was written at an earlier end.
+  /// @param used the checkpoint that the run goes on from; the next one is written over the other
+  /// @throws CaseError when a file is not as long as it was then
+  void go_back(const FolderMarks& marks, const std::string& used);
   /// Adds a line with the wall-clock time (UTC) to run.log.
   void log(const std::string& line);
 
@@ -129,12 +165,17 @@ class RunFolder {
   std::string file(const std::string& name) const;
   /// Opens history.csv and events.csv, which must not be there yet.
   void start();
+  void open_tables();
+  void write_headers();
+  void write_pvd();
 
   std::string path_;
+  Use use_;
   std::unique_ptr<AppendedFile> history_;
   std::unique_ptr<AppendedFile> events_;
   std::unique_ptr<AppendedFile> log_;
   std::vector<double> frame_times_;  ///< [s]
+  std::size_t next_checkpoint_ = 0;
 };
 
 /// Writes an unstructured grid of triangles to a .vtu file (`crackle mesh -o FILE.vtu` and frames).

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "crackle/solid/stiffness.hpp"
@@ -16,8 +17,18 @@
 
 namespace crackle {
 
+/// A node of the absorbing boundary.
+struct BoundaryNode {
+  Index node = -1;
+  Vec2 load;             ///< constant [N/m]
+  Sym2 dashpot;          ///< of all its edges together [kg/(s m)]
+  Vec2 velocity_before;  ///< that the step began with [m/s]
+};
+
 class AbsorbingBoundary {
  public:
+  /// As it was (after a resume).
+  explicit AbsorbingBoundary(std::vector<BoundaryNode> nodes) : nodes_(std::move(nodes)) {}
   /// @param loads constant force on every corner of the outer boundary [N/m] (others are zero)
   AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
                     std::span<const Vec2> loads);
@@ -32,14 +43,10 @@ class AbsorbingBoundary {
   /// Adds the constant loads to forces per node [N/m].
   void add_loads(std::span<Vec2> node_forces) const;
 
+  const std::vector<BoundaryNode>& nodes() const { return nodes_; }
+
  private:
-  struct Node {
-    Index node = -1;
-    Vec2 load;             // [N/m]
-    Sym2 dashpot;          // of all its edges together [kg/(s m)]
-    Vec2 velocity_before;  // [m/s]
-  };
-  std::vector<Node> nodes_;
+  std::vector<BoundaryNode> nodes_;
 };
 
 }  // namespace crackle

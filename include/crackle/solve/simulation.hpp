@@ -61,12 +61,28 @@ struct Energies {
                           ///< strains of 3e-7 everywhere hold, if that is more)
 };
 
+/// What a simulation keeps beside its State, so that another can go on from there.
+struct SimulationMemory {
+  Energies reference;          ///< stored energies at the start [J/m]
+  double scale = 0.0;          ///< largest energy so far [J/m]
+  StableStep stable;           ///< at the start
+  Index geostatic_slips = 0;   ///< elements beyond their strength in the geostatic stage
+  double slowed = 1.0;         ///< share of the step that inserted elements leave
+  Index rough_insertions = 0;  ///< elements inserted where forces jumped
+  std::vector<std::uint8_t>
+      stressed;  ///< per triangle, of the last step; empty: nothing is inserted on demand
+  std::vector<BoundaryNode> boundary;  ///< of an absorbing boundary
+};
+
 /// The dynamic loop: explicit steps of a scene from its geostatic equilibrium on.
 class Simulation {
  public:
   /// Sets the scene in equilibrium: in-situ stress, excavation, initial pressure; by a linear solve,
   /// and by relaxation where something slips or breaks on the way. @throws NumericalError
   explicit Simulation(Scene scene);
+  /// Goes on, bit by bit, where another simulation of the same scene was.
+  Simulation(Scene scene, State state, SimulationMemory memory);
+  SimulationMemory memory() const;
 
   const State& state() const { return state_; }
   State& state() { return state_; }
@@ -108,6 +124,7 @@ class Simulation {
   SeismicMedium medium() const { return {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness}; }
   void cut_cracks();
   void prepare_insertion();
+  void set_screen();
   void insert_stressed();
   void insert(const std::vector<Index>& edges);
   Energies potential_energies() const;

@@ -124,6 +124,9 @@ struct ContactPoint {
 struct ContactState {
   std::vector<ContactPoint> points;  ///< in order of side, place, target
   Index broken = -1;  ///< elements broken or released when free sides were last looked up; -1: never
+  std::vector<std::array<Vec2, 2>>
+      listed;          ///< ends of the free sides when those that may meet were listed [m]
+  double moved = 0.0;  ///< bound of the motion of two sides against one another since [m]
 };
 
 /// Every number that changes during a run, as plain arrays: what a checkpoint saves.

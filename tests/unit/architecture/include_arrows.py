@@ -32,6 +32,7 @@ LIBRARIES = [
     ("gmsh", r"gmshc?\.h", "src/mesh"),
     ("VTK", r"vtk\w*\.h", "src/io"),
     ("pugixml", r"pugi\w+\.hpp", "src/io"),
+    ("HDF5", r"(hdf5|H5\w*)\.h", "src/io"),
     ("toml++", r"toml(\+\+/|plusplus|\.hpp)", "src/io"),
     ("Eigen", r"(unsupported/)?Eigen/", "src/solve"),
     ("UDUNITS-2", r"(udunits2?/)?udunits2?\.h", "src/core"),

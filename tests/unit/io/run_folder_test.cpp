@@ -99,14 +99,40 @@ TEST(RunFolder, CanBeUsedAgainWhenNothingWasWritten) {
               AllOf(HasSubstr("the mesh failed\n"), HasSubstr("never was\n")));
 }
 
-TEST(RunFolder, DoesNotOverwriteARunThatStartedMeanwhile) {
+TEST(RunFolder, IsForOneAtATime) {
+  const ScratchFolder scratch;
+  {
+    RunFolder first(scratch / "run");
+    EXPECT_THAT([&] { RunFolder second(scratch / "run"); },
+                ThrowsMessage<CaseError>(HasSubstr("run: another crackle is running in this folder")));
+    first.append_history({});
+  }
+  EXPECT_THAT([&] { RunFolder third(scratch / "run"); },
+              ThrowsMessage<CaseError>(HasSubstr("already holds a run")));
+}
+
+TEST(RunFolder, DoesNotOverwriteWhatCameMeanwhile) {
   const ScratchFolder scratch;
   RunFolder late(scratch / "run");
-  write_sample_run(scratch / "run", 1, 1e-3, true);
-  const std::string before = content(scratch / "run/history.csv");
+  put(scratch / "run/history.csv", "precious");
   EXPECT_THROW(late.append_history({}), CaseError);
   EXPECT_THROW(late.write_resolved(sample_case()), CaseError);
-  EXPECT_EQ(content(scratch / "run/history.csv"), before);
+  EXPECT_EQ(content(scratch / "run/history.csv"), "precious");
+  EXPECT_FALSE(fs::exists(scratch / "run/resolved.toml"));
+}
+
+TEST(RunFolder, NoticesThatItHasVanished) {
+  const ScratchFolder scratch;
+  RunFolder run(scratch / "run");
+  run.append_history({});
+  fs::rename(scratch / "run", scratch / "moved");
+  run.append_history({});
+  EXPECT_THAT([&] { run.write_frame(sample_fields(0.0), sample_fractures(0.0)); },
+              ThrowsMessage<CaseError>(HasSubstr("cannot create the folder: No such file or directory")));
+  fs::remove_all(scratch / "moved");
+  EXPECT_THAT([&] { run.append_history({}); },
+              ThrowsMessage<CaseError>(HasSubstr("history.csv: cannot write: No such file or directory")));
+  EXPECT_FALSE(fs::exists(scratch / "run")) << "does not come back";
 }
 
 TEST(RunFolder, SaysThatTheDiskIsFull) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace crackle {
+
+/// From now on SIGUSR1 asks for a checkpoint; a limit of file size or a closed terminal is met as an
+/// error of the write, not as the end of the process.
+void heed_requests();
+/// From now on SIGINT, SIGTERM and SIGHUP ask the run to stop. A SIGHUP that was ignored (nohup) still
+/// is.
+void heed_stops();
+
+bool stop_requested();
+/// Whether a checkpoint has been asked for since the last call.
+bool take_checkpoint_request();
+
+}  // namespace crackle

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Killed (SIGKILL) at 30 random instants, most of them while something is being written, and resumed
+// each time: what is left in the end is what an undisturbed run leaves.
+#include <csignal>
+#include <random>
+
+#include "process.hpp"
+
+namespace crackle_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool unfinished_file_below(const std::string& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".tmp") return true;
+  }
+  return false;
+}
+
+using Kill = CliTest;
+
+TEST_F(Kill, ThirtyTimes) {
+  write("case.toml", good_case);
+  const auto arguments = [&](const std::string& folder) {
+    return std::vector<std::string>{"run",
+                                    path("case.toml"),
+                                    "-q",
+                                    "-j",
+                                    "1",
+                                    "-o",
+                                    path(folder),
+                                    "--set",
+                                    "run.end_time=0.7 ms",
+                                    "--set",
+                                    "output.checkpoint_every=2 ms"};  // wall-clock time: nearly always
+  };
+  double whole_time = 0.0;
+  {
+    Process whole(arguments("whole"), path("process"));
+    while (!whole.has_ended()) {
+      whole_time = std::max(whole_time, whole.processor_time() < 1e8 ? whole.processor_time() : 0.0);
+      usleep(1000);
+    }
+    ASSERT_EQ(whole.wait().code, 0);
+  }
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> instant(0.05 * whole_time, 0.5 * whole_time);
+  int kills = 0, before_first_checkpoint = 0, while_writing = 0, runs = 0;
+  while (kills < 30) {
+    const std::string folder = "killed" + std::to_string(++runs);
+    for (bool done = false; !done;) {
+      const bool begun = fs::exists(path(folder + "/resolved.toml"));
+      Process process(begun ? std::vector<std::string>{"run", "--resume", path(folder), "-q", "-j", "1"}
+                            : arguments(folder),
+                      path("process"));
+      const double until = kills < 30 ? instant(random) : 1e9;
+      while (!process.has_ended() && process.processor_time() < until) usleep(200);
+      if (process.has_ended()) {
+        const Outcome outcome = process.wait();
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        done = true;
+        continue;
+      }
+      process.signal(SIGKILL);
+      process.wait();
+      ++kills;
+      if (!fs::exists(path(folder))) continue;
+      before_first_checkpoint += !fs::exists(path(folder + "/checkpoint_a.h5"));
+      while_writing += unfinished_file_below(path(folder));
+      expect_readable_frames(path(folder));
+    }
+    expect_same_results(path(folder), path("whole"));
+  }
+  std::printf(
+      "%d kills in %d runs, %d before the first checkpoint, %d with a file half written; lost: nothing\n",
+      kills, runs, before_first_checkpoint, while_writing);
+  EXPECT_GT(while_writing, 0);
+}
+
+}  // namespace
+}  // namespace crackle_test

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A run that was interrupted and resumed leaves the same bytes as one that was not.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "process.hpp"
+
+namespace crackle_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Resume : public CliTest {
+ protected:
+  Resume() { write("case.toml", good_case); }
+
+  std::vector<std::string> arguments(const std::string& folder, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> all{"run",
+                                 path("case.toml"),
+                                 "-q",
+                                 "-j",
+                                 "1",
+                                 "-o",
+                                 path(folder),
+                                 "--set",
+                                 "run.end_time=0.75 ms",
+                                 "--set",
+                                 "output.checkpoint_every=0 s"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  Outcome run(const std::string& folder, const std::vector<std::string>& more = {}) {
+    return Process(arguments(folder, more), path("process")).wait();
+  }
+  Outcome resume(const std::string& folder, const std::string& threads = "1") {
+    return Process({"run", "--resume", path(folder), "-q", "-j", threads}, path("process")).wait();
+  }
+  // Stops a run when a frame has appeared.
+  Outcome interrupted(Process& process, const std::string& folder, int frame) {
+    const std::string number = std::to_string(frame);
+    EXPECT_TRUE(wait_for(
+        path(folder + "/fields/fields_" + std::string(6 - number.size(), '0') + number + ".vtu"), process));
+    process.signal(SIGTERM);
+    return process.wait();
+  }
+  Outcome interrupted_run(const std::string& folder, int frame, const std::vector<std::string>& more = {}) {
+    Process process(arguments(folder, more), path("process"));
+    return interrupted(process, folder, frame);
+  }
+  Outcome interrupted_resume(const std::string& folder, int frame, const std::string& threads) {
+    Process process({"run", "--resume", path(folder), "-q", "-j", threads}, path("process"));
+    return interrupted(process, folder, frame);
+  }
+  void flip_a_bit(const std::string& name) {
+    std::string bytes = read_text(path(name));
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    write(name, bytes);
+  }
+};
+
+// In the middle of breaking, twice, with one thread and with two.
+TEST_F(Resume, LeavesTheSameBytes) {
+  ASSERT_EQ(run("whole").code, 0);
+  EXPECT_EQ(interrupted_run("parts", 4).code, 75);
+  EXPECT_THAT(read_text(path("parts/summary.json")), HasSubstr("\"interrupted\""));
+  EXPECT_EQ(interrupted_resume("parts", 15, "2").code, 75);
+  const std::string events = read_text(path("parts/events.csv"));
+  EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 2) << "it breaks already";
+  EXPECT_LT(events.size(), read_text(path("whole/events.csv")).size()) << "and not all of it has";
+  EXPECT_EQ(interrupted_resume("parts", 17, "1").code, 75);
+  EXPECT_EQ(resume("parts", "2").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+}
+
+TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
+  const std::vector<std::string> absorbing{"--set", "boundary.outer=absorbing"};
+  ASSERT_EQ(run("whole", absorbing).code, 0);
+  EXPECT_EQ(interrupted_run("parts", 15, absorbing).code, 75);
+  EXPECT_EQ(resume("parts").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+}
+
+TEST_F(Resume, WritesACheckpointWhenAsked) {
+  Process process(arguments("out"), path("process"));
+  ASSERT_TRUE(wait_for(path("out/fields/fields_000002.vtu"), process));
+  process.signal(SIGUSR1);
+  EXPECT_TRUE(wait_for(path("out/checkpoint_a.h5"), process));
+  EXPECT_EQ(process.wait().code, 0) << "and goes on";
+  EXPECT_FALSE(fs::exists(path("out/checkpoint_a.h5"))) << "of no use any more";
+  const Outcome again = resume("out");
+  EXPECT_EQ(again.code, 0) << again.err;
+}
+
+TEST_F(Resume, OfARunWithoutCheckpointBeginsAnew) {
+  ASSERT_EQ(run("whole").code, 0);
+  Process process(arguments("killed"), path("process"));
+  ASSERT_TRUE(wait_for(path("killed/fields/fields_000012.vtu"), process));
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().code, -1);
+  EXPECT_EQ(resume("killed").code, 0);
+  expect_same_results(path("killed"), path("whole"));
+}
+
+// Whole files, but for the older checkpoint.
+TEST_F(Resume, TakesTheOlderCheckpointWhereTheNewerIsDamaged) {
+  ASSERT_EQ(run("whole").code, 0);
+  ASSERT_EQ(interrupted_run("parts", 5).code, 75);
+  ASSERT_EQ(interrupted_resume("parts", 14, "1").code, 75);
+  ASSERT_TRUE(fs::exists(path("parts/checkpoint_b.h5")));
+  flip_a_bit("parts/checkpoint_b.h5");
+  EXPECT_EQ(resume("parts").code, 0);
+  EXPECT_THAT(read_text(path("parts/run.log")),
+              testing::AllOf(HasSubstr("checkpoint_b.h5: it is damaged"), HasSubstr("from checkpoint_a.h5")));
+  expect_same_results(path("parts"), path("whole"));
+}
+
+TEST_F(Resume, RefusesWhereNoCheckpointCanBeUsed) {
+  ASSERT_EQ(interrupted_run("out", 2).code, 75);
+  ASSERT_EQ(interrupted_resume("out", 5, "1").code, 75);
+  flip_a_bit("out/checkpoint_a.h5");
+  fs::resize_file(path("out/checkpoint_b.h5"), 1000);
+  const auto before = results(path("out"));
+  const Outcome outcome = resume("out");
+  expect_refusal(outcome, 2, "no checkpoint can be used");
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("checkpoint_a.h5: it is damaged"),
+                                          HasSubstr("checkpoint_b.h5: it is 1000 bytes long instead of")));
+  EXPECT_EQ(results(path("out")), before);
+}
+
+TEST_F(Resume, RefusesACheckpointOfAnotherCase) {
+  ASSERT_EQ(interrupted_run("out", 2).code, 75);
+  std::string resolved = read_text(path("out/resolved.toml"));
+  const std::size_t at = resolved.find("density = 2500");
+  ASSERT_NE(at, std::string::npos);
+  write("out/resolved.toml", resolved.replace(at, 14, "density = 2600"));
+  expect_refusal(resume("out"), 2, "it is of another case than resolved.toml");
+}
+
+TEST_F(Resume, RefusesWhereTheTablesWereCut) {
+  ASSERT_EQ(interrupted_run("out", 12).code, 75);
+  fs::resize_file(path("out/history.csv"), 100);
+  expect_refusal(resume("out"), 2,
+                 "history.csv or events.csv is shorter than when checkpoint_a.h5 was written");
+}
+
+TEST_F(Resume, RefusesWhatIsNoRun) {
+  expect_refusal(resume("nothing"), 2, "there is no run to resume");
+  EXPECT_FALSE(fs::exists(path("nothing")));
+  fs::create_directory(path("empty"));
+  expect_refusal(resume("empty"), 2, "there is no run to resume");
+  expect_refusal(crackle({"run", path("case.toml"), "--resume", path("empty")}), 2, "case excludes --resume");
+  expect_refusal(crackle({"run"}), 2, "case is required");
+}
+
+TEST_F(Resume, SecondProcessInOneFolderIsRefused) {
+  Process first(arguments("out", {"--set", "run.end_time=10 s", "--set", "fluid.pump.0.to=0.1 ms", "--set",
+                                  "output.fields_every=5 s"}),
+                path("process"));
+  ASSERT_TRUE(wait_for(path("out/run.log"), first));
+  expect_refusal(crackle(arguments("out")), 2, "out: another crackle is running in this folder");
+  ASSERT_TRUE(wait_for(path("out/fields.pvd"), first));
+  expect_refusal(crackle({"run", "--resume", path("out")}), 2, "another crackle is running in this folder");
+  first.signal(SIGINT);
+  EXPECT_EQ(first.wait().code, 75) << "the first is not disturbed";
+}
+
+}  // namespace
+}  // namespace crackle_test
