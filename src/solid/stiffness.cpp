@@ -93,7 +93,9 @@ PlaneStiffness compensated(const PlaneStiffness& stiffness, double compliance) {
   return {.c11 = c.a, .c12 = c.b, .c22 = c.d, .c16 = c.c / r2, .c26 = c.e / r2, .c66 = 0.5 * c.f};
 }
 
-WaveSpeeds wave_speeds(const PlaneStiffness& c, double density, Vec2 n) {
+WaveSpeeds wave_speeds(const PlaneStiffness& stiffness, double density, Vec2 direction) {
+  const PlaneStiffness& c = stiffness;
+  const Vec2 n = direction;
   // Eigenvalues of the acoustic tensor n·C·n (Christoffel).
   const double xx = c.c11 * n.x * n.x + 2.0 * c.c16 * n.x * n.y + c.c66 * n.y * n.y;
   const double yy = c.c66 * n.x * n.x + 2.0 * c.c26 * n.x * n.y + c.c22 * n.y * n.y;
