@@ -85,6 +85,7 @@ class Run {
     Progress progress(scene_.run.end_time, options_.quiet);
     loop_start_ = last_checkpoint_ = Clock::now();
     try {
+      if (simulation_->state().step == 0) climb_ramp();
       while (!stop_requested() && !is_at_end()) {
         step();
         progress.show(now());
@@ -149,6 +150,12 @@ class Run {
             ? fmt::format(", {} elements slipped or broke and came to rest", simulation_->geostatic_slips())
             : "",
         seconds_since(settle_start)));
+    if (simulation_->ramp_end() > 0.0) {
+      say(fmt::format(
+          "elastic ramp by static solves to {:.4g} ms, where the first edge comes to {:.0f} % of its "
+          "strength (run.fast_forward = false: by steps)",
+          1e3 * simulation_->ramp_end(), 100.0 * solver_scene.insertion.threshold));
+    }
     say(simulation_->stable().explain(*mesh));
     for (const std::string& line : scene_warnings(solver_scene, scene_.run.end_time, simulation_->stable()))
       say(line);
@@ -170,6 +177,29 @@ class Run {
     history_ = Due(scene_.output.history_every, memory_.next_history);
     fields_ = Due(scene_.output.fields_every, memory_.next_fields);
     return true;
+  }
+
+  // The elastic ramp: rows and frames at their times, a hundred rows at most.
+  void climb_ramp() {
+    const double end = std::min(simulation_->ramp_end(), scene_.run.end_time);
+    const double row_every =
+        scene_.output.history_every * std::ceil(0.01 * end / scene_.output.history_every);
+    for (double row = 0.0, frame = 0.0; std::min(row, frame) < end;) {
+      const double time = std::min(row, frame);
+      const Energies e = simulation_->ramp_to(time);
+      if (time == frame) {
+        write_frame();
+        frame += scene_.output.fields_every;
+      }
+      if (time == row) {
+        const double pressure = simulation_->wellbore_pressure();
+        tally_.residual(e.residual);
+        tally_.pressure(time, pressure, row_every);
+        folder_.append_history(history_row(*simulation_, e, tally_, time, row_every, pressure));
+        row += row_every;
+      }
+    }
+    if (end > 0.0) simulation_->ramp_to(end);
   }
 
   void step() {
@@ -273,6 +303,11 @@ class Run {
     }
     say(fmt::format("time: {:.1f} s in steps ({}), {:.1f} s in output; {:.1f} core-ns per triangle and step",
                     memory.loop_wall, parts, memory.output_wall, summary.core_ns_per_triangle_step));
+    if (simulation_->scene().insertion.on_demand) {
+      say(fmt::format("{} of {} edges got a cohesive element, {} of them with a jump in force",
+                      simulation_->state().cohesive.count(), simulation_->state().mesh->edge_count(),
+                      simulation_->rough_insertions()));
+    }
     say(fmt::format(
         "breakdown {:.3f} MPa at {:.4f} ms, propagation {:.3f} MPa; {} broken elements, {:.3f} m; energy "
         "residual {:.1e}",

@@ -82,6 +82,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     for (const auto& stage : scene.fluid.pump) stages.push_back({stage.from, stage.to, stage.rate});
     s.pump = Pump(std::move(stages));
   }
+  s.fast_forward = scene.run.fast_forward;
   s.thickness = scene.seismic.thickness;
   s.slip_rate = scene.seismic.slip_rate;
   return s;

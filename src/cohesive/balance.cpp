@@ -141,11 +141,19 @@ std::vector<Vec2> share(const State& state, const Row& row, Vec2 acceleration, c
   return result;
 }
 
-// Sets the force on an element's face a at its end at `vertex`.
-void aim(const State& state, const Link& link, Index vertex, Vec2 on_node_before, EndForces& target) {
+// The force on an element's face a at each end, and which of them are given.
+struct Target {
+  EndForces force;
+  bool given0 = false, given1 = false;
+};
+
+// Gives the force at the element's end at `vertex`.
+void aim(const State& state, const Link& link, Index vertex, Vec2 on_node_before, Target& target) {
   const Vec2 on_a = link.on_face_a ? on_node_before : -on_node_before;
   const Edge& edge = state.mesh->edges[at(state.cohesive.edge[at(link.element)])];
-  (edge.vertex[0] == vertex ? target.end0 : target.end1) = on_a;
+  const bool first = edge.vertex[0] == vertex;
+  (first ? target.force.end0 : target.force.end1) = on_a;
+  (first ? target.given0 : target.given1) = true;
 }
 
 }  // namespace
@@ -206,7 +214,7 @@ std::vector<Index> Cohesive::balance(State& state, std::span<const Vec2> corner_
   const Mesh& mesh = *state.mesh;
   const CornerForce force = [&](Index corner) { return corner_forces[at(corner)]; };
   const auto any = [](Index) { return true; };
-  std::vector<EndForces> target(state.cohesive.edge.size());
+  std::vector<Target> target(state.cohesive.edge.size());
   std::vector<char> done(mesh.vertices.size(), 0);
   for (Index start = 0; start < 3 * mesh.triangle_count(); ++start) {
     const Index vertex = mesh.triangles[at(start / 3)][at(start % 3)];
@@ -220,7 +228,7 @@ std::vector<Index> Cohesive::balance(State& state, std::span<const Vec2> corner_
   }
   std::vector<Index> beyond;
   for (Index e = 0; e < state.cohesive.count(); ++e) {
-    if (!bear(state, e, target[at(e)])) beyond.push_back(e);
+    if (!bear(state, e, target[at(e)].force)) beyond.push_back(e);
   }
   return beyond;
 }
@@ -232,12 +240,12 @@ std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges,
   const Index first_new = c.count();
   const std::vector<Parting> partings = insert_elements(state, edges, number);
   // Elements whose ends change what they bear, and what that is; a new one bears what the stresses ask.
-  std::map<Index, EndForces> target;
+  std::map<Index, Target> target;
   for (Index e = first_new; e < c.count(); ++e) {
     start_history(state, e);
     c.histories.back().penalty = penalty[at(e - first_new)];
     const Vec2 f = stress_force(state, rock, e);
-    target[e] = {f, f};
+    target[e] = {{f, f}};
   }
   for (const Parting& parting : partings) {
     const auto belongs = [&](Index node) {
@@ -262,16 +270,19 @@ std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges,
       for (std::size_t k = 0; k < row.links.size(); ++k) {
         const Index e = row.links[k].element;
         aim(state, row.links[k], parting.vertex, forces[k],
-            target.try_emplace(e, c.force[at(e)]).first->second);
+            target.try_emplace(e, Target{c.force[at(e)], true, true}).first->second);
       }
     }
   }
   std::vector<Index> beyond;
-  for (const auto& [element, forces] : target) {
+  for (auto& [element, wanted] : target) {
+    // An end that is tied bears nothing: as the other one.
+    if (wanted.given0 && !wanted.given1) wanted.force.end1 = wanted.force.end0;
+    if (wanted.given1 && !wanted.given0) wanted.force.end0 = wanted.force.end1;
     const auto& points = c.histories[at(c.history_of[at(element)])].point;
     const bool damaged =
         std::any_of(points.begin(), points.end(), [](const auto& p) { return p.damage > 0.0; });
-    if (damaged || !bear(state, element, forces)) beyond.push_back(element);
+    if (damaged || !bear(state, element, wanted.force)) beyond.push_back(element);
     if (!damaged) load_springs(state, element);
   }
   return beyond;

@@ -126,6 +126,12 @@ CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* 
   }
 }
 
+double utilisation_of(const CohesiveMaterial& m, double normal, double shear) {
+  const double pull = std::max(normal, 0.0) / m.tensile_strength;
+  const double push = shear / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
+  return std::sqrt(pull * pull + push * push);
+}
+
 }  // namespace
 
 Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, std::vector<CohesiveMaterial> materials)
@@ -149,10 +155,16 @@ CohesiveMaterial Cohesive::material(const State& state, Index element) const {
 
 double Cohesive::utilisation(const CohesiveMaterial& m, Sym2 stress, Vec2 along) {
   const Vec2 traction = stress * right_normal(along);
-  const double normal = dot(traction, right_normal(along));
-  const double pull = std::max(normal, 0.0) / m.tensile_strength;
-  const double push = dot(traction, along) / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
-  return std::sqrt(pull * pull + push * push);
+  return utilisation_of(m, dot(traction, right_normal(along)), dot(traction, along));
+}
+
+double Cohesive::utilisation(const State& state, const CohesiveHistory& h) const {
+  const CohesiveMaterial& m = materials_[state.cohesive.material[at(h.element)]];
+  double most = 0.0;
+  for (const CohesivePoint& p : h.point) {
+    most = std::max(most, p.damage > 0.0 ? 1.0 : utilisation_of(m, p.normal, p.shear + p.friction));
+  }
+  return most;
 }
 
 EndSeparation Cohesive::separation(const State& state, Index element) const {

@@ -226,6 +226,7 @@ std::vector<TableSpec> make_tables() {
     {"run", {
       number("end_time", slot<&C::run, &C::Run::end_time>(), duration, positive, Need::always, "simulated time at the end"),
       number("time_step", slot<&C::run, &C::Run::time_step>(), duration, positive, Need::never, "\"auto\": the stable one times safety", {}, "auto"),
+      text("fast_forward", slot<&C::run, &C::Run::fast_forward>(), "true: the elastic ramp before the first edge nears its strength by static solves, where that holds"),
       number("safety", slot<&C::run, &C::Run::safety>(), plain, fraction, Need::never, "share of the stable time step that \"auto\" takes"),
     }},
     {"seismic", {

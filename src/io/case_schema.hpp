@@ -20,9 +20,9 @@ namespace crackle {
 /// The member of a Case that a key fills; `row` counts tables of a list such as [[fluid.pump]].
 template <class T>
 using Ref = T& (*)(Case&, std::size_t row);
-using Slot =
-    std::variant<std::monostate, Ref<double>, Ref<std::optional<double>>, Ref<int>, Ref<std::uint64_t>,
-                 Ref<std::optional<std::uint64_t>>, Ref<std::string>, Ref<std::vector<std::string>>>;
+using Slot = std::variant<std::monostate, Ref<double>, Ref<std::optional<double>>, Ref<int>,
+                          Ref<std::uint64_t>, Ref<std::optional<std::uint64_t>>, Ref<bool>, Ref<std::string>,
+                          Ref<std::vector<std::string>>>;
 
 /// What a number measures.
 struct Quantity {

@@ -134,6 +134,9 @@ void read_value(const TomlNode& value, const ValueContext& context, Case& scene,
     } else if constexpr (std::is_same_v<Slotted, Ref<std::uint64_t>> ||
                          std::is_same_v<Slotted, Ref<std::optional<std::uint64_t>>>) {
       slot(scene, row) = read_count<std::uint64_t>(value, context);
+    } else if constexpr (std::is_same_v<Slotted, Ref<bool>>) {
+      if (value.kind != Kind::boolean) wrong_type(value, context, "true or false");
+      slot(scene, row) = value.truth;
     } else if constexpr (std::is_same_v<Slotted, Ref<std::string>>) {
       slot(scene, row) = read_text(value, context);
     } else if constexpr (std::is_same_v<Slotted, Ref<std::vector<std::string>>>) {

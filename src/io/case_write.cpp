@@ -18,6 +18,7 @@ std::string as_toml(std::optional<double> value) { return value ? as_toml(*value
 std::string as_toml(int value) { return fmt::format("{}", value); }
 std::string as_toml(std::uint64_t value) { return fmt::format("{}", value); }
 std::string as_toml(std::optional<std::uint64_t> value) { return value ? as_toml(*value) : ""; }
+std::string as_toml(bool value) { return value ? "true" : "false"; }
 std::string as_toml(const std::string& text) { return toml_quoted(text); }
 std::string as_toml(const std::vector<std::string>& texts) {
   std::string list;

@@ -79,6 +79,7 @@ TomlNode convert(const toml::node& value, const std::string& name, int depth) {
     node.number = number->get();
   } else if (value.is_boolean()) {
     node.kind = Kind::boolean;
+    node.truth = value.as_boolean()->get();
   } else {
     node.kind = Kind::date;
     std::ostringstream stream;

@@ -28,6 +28,7 @@ struct TomlNode {
   std::string text = {};                ///< of a text or a date
   double number = 0.0;                  ///< of a number or an integer
   std::int64_t integer = 0;             ///< of an integer
+  bool truth = false;                   ///< of a boolean
   std::vector<TomlNode> children = {};  ///< of a table or an array, in the order of the text
 
   /// The child of a table; null if there is none.

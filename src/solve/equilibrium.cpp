@@ -19,14 +19,21 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_ptr, const Bulk& bulk,
-                                      const std::vector<char>& fixed,
-                                      const std::function<void(const State&, std::span<Vec2>)>& add_loads) {
-  const Mesh& mesh = *mesh_ptr;
-  std::vector<Index> unknown(mesh.vertices.size(), -1);
-  Index count = 0;
-  for (std::size_t v = 0; v < unknown.size(); ++v) {
-    if (!fixed[v]) unknown[v] = count++;
+struct StaticSolver::Factor {
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<float>> solver;
+};
+
+StaticSolver::~StaticSolver() = default;
+
+StaticSolver::StaticSolver(std::shared_ptr<const Mesh> mesh_ptr, const Bulk& bulk,
+                           const std::vector<char>& fixed)
+    : mesh_(std::move(mesh_ptr)),
+      bulk_(bulk),
+      unknown_(mesh_->vertices.size(), -1),
+      factor_(std::make_unique<Factor>()) {
+  const Mesh& mesh = *mesh_;
+  for (std::size_t v = 0; v < unknown_.size(); ++v) {
+    if (!fixed[v]) unknown_[v] = count_++;
   }
   std::vector<Eigen::Triplet<float>> entries;
   entries.reserve(mesh.triangles.size() * 21);
@@ -34,10 +41,10 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     const auto g = bulk.shape_gradients(t);
     for (std::size_t i = 0; i < 3; ++i) {
-      const Index row = unknown[at(mesh.triangles[at(t)][i])];
+      const Index row = unknown_[at(mesh.triangles[at(t)][i])];
       if (row < 0) continue;
       for (std::size_t j = 0; j < 3; ++j) {
-        const Index column = unknown[at(mesh.triangles[at(t)][j])];
+        const Index column = unknown_[at(mesh.triangles[at(t)][j])];
         if (column < 0 || column > row) continue;  // lower triangle
         for (int a = 0; a < 2; ++a) {
           for (int b = 0; b < 2; ++b) {
@@ -52,33 +59,36 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
   }
   // Factorised in single precision, at two thirds of the memory and twice the speed; the corrections
   // below are driven by residuals in double precision, and gain two digits each.
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<float>> solver;
   {
-    Eigen::SparseMatrix<float> stiffness(2 * count, 2 * count);
+    Eigen::SparseMatrix<float> stiffness(2 * count_, 2 * count_);
     stiffness.setFromTriplets(entries.begin(), entries.end());
     std::vector<Eigen::Triplet<float>>().swap(entries);
-    solver.compute(stiffness);
+    factor_->solver.compute(stiffness);
   }
-  if (solver.info() != Eigen::Success) {
+  if (factor_->solver.info() != Eigen::Success) {
     throw NumericalError(
         "static equilibrium: the stiffness matrix is singular; is some part of the rock held by "
         "nothing (no outer boundary, or a loose block)?");
   }
+}
 
-  State tied = make_tied_state(mesh_ptr);
+std::vector<Vec2> StaticSolver::displacement(const AddLoads& add_loads, std::vector<Vec2> start) const {
+  const Mesh& mesh = *mesh_;
+  State tied = make_tied_state(mesh_);
+  if (!start.empty()) tied.displacement = std::move(start);
   tied.strain_rate.assign(mesh.triangles.size(), {});
   std::vector<Vec2> forces(3 * mesh.triangles.size());
-  Eigen::VectorXd residual(2 * count);
+  Eigen::VectorXd residual(2 * count_);
   double first = 0.0, before = 0.0;
   for (int pass = 0; pass < 40; ++pass) {
     for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index) {
-      bulk.corner_forces(tied, begin, end, forces.data() + 3 * begin);
+      bulk_.corner_forces(tied, begin, end, forces.data() + 3 * begin);
     });
     if (add_loads) add_loads(tied, forces);
     residual.setZero();
     double corner_forces = 0.0;  // in equilibrium already where the residual is nothing against these
     for (std::size_t k = 0; k < forces.size(); ++k) {
-      const Index u = unknown[at(mesh.triangles[k / 3][k % 3])];
+      const Index u = unknown_[at(mesh.triangles[k / 3][k % 3])];
       if (u < 0) continue;
       corner_forces += dot(forces[k], forces[k]);
       residual[2 * u] += forces[k].x;
@@ -97,12 +107,17 @@ std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh_pt
                       "about to collapse, or the mesh very uneven?",
                       norm_now / first));
     }
-    const Eigen::VectorXf step = solver.solve(residual.cast<float>());
-    for (std::size_t v = 0; v < unknown.size(); ++v) {
-      if (unknown[v] >= 0) tied.displacement[v] += Vec2{step[2 * unknown[v]], step[2 * unknown[v] + 1]};
+    const Eigen::VectorXf step = factor_->solver.solve(residual.cast<float>());
+    for (std::size_t v = 0; v < unknown_.size(); ++v) {
+      if (unknown_[v] >= 0) tied.displacement[v] += Vec2{step[2 * unknown_[v]], step[2 * unknown_[v] + 1]};
     }
   }
   return tied.displacement;
+}
+
+std::vector<Vec2> static_displacement(const std::shared_ptr<const Mesh>& mesh, const Bulk& bulk,
+                                      const std::vector<char>& fixed, const AddLoads& add_loads) {
+  return StaticSolver(mesh, bulk, fixed).displacement(add_loads);
 }
 
 }  // namespace crackle

@@ -59,25 +59,13 @@ std::vector<Index> wetted_edges(const Scene& scene) {
   return edges;
 }
 
-// Displacement of every vertex by the excavation and the initial pressure, the rock still whole and
-// its outer boundary fixed.
-std::vector<Vec2> geostatic_displacement(const Scene& scene, const Bulk& bulk) {
-  std::vector<char> fixed(scene.mesh->vertices.size(), 0);
-  bool any = false;
-  for (const Edge& edge : scene.mesh->edges) {
-    if (edge.kind == EdgeKind::outer) fixed[at(edge.vertex[0])] = fixed[at(edge.vertex[1])] = 1, any = true;
-  }
-  if (!any) return std::vector<Vec2>(scene.mesh->vertices.size());
-  std::optional<Fluid> fluid;
-  State wet = make_tied_state(scene.mesh);
-  if (scene.fluid) {
-    fluid.emplace(wet, *scene.fluid, Pump{});
-    fluid->fill(wet, wetted_edges(scene), scene.initial_pressure);
-  }
-  return static_displacement(scene.mesh, bulk, fixed, [&](const State& tied, std::span<Vec2> forces) {
+// Loads of the fluid's pressure on the walls of a tied state, which `wet` holds the fluid of.
+AddLoads wall_loads(State& wet, std::optional<Fluid>& fluid) {
+  return [&](const State& tied, std::span<Vec2> forces) {
+    if (!fluid) return;
     wet.displacement = tied.displacement;
-    if (fluid) fluid->add_corner_forces(wet, forces);
-  });
+    fluid->add_corner_forces(wet, forces);
+  };
 }
 
 }  // namespace
@@ -96,7 +84,7 @@ Simulation::Simulation(Scene scene)
       bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density, scene_.stress,
             scene_.damping) {
   // First, while there is little else in memory: the factorisation is the largest thing of all.
-  const std::vector<Vec2> displacement = geostatic_displacement(scene_, bulk_);
+  const std::vector<Vec2> displacement = geostatic_displacement();
   const bool split = scene_.law && !scene_.insertion.on_demand;
   state_ = split ? make_split_state(scene_.mesh) : make_tied_state(scene_.mesh);
   for (std::size_t c = 0; c < state_.node_of_corner.size(); ++c) {
@@ -165,6 +153,98 @@ SimulationMemory Simulation::memory() const {
           stable_,    geostatic_slips_,
           slowed_,    rough_insertions_,
           stressed_,  boundary_ ? boundary_->nodes() : std::vector<BoundaryNode>{}};
+}
+
+// Displacement of every vertex by the excavation and the initial pressure, the rock still whole and
+// its outer boundary fixed.
+std::vector<Vec2> Simulation::geostatic_displacement() {
+  std::vector<char> fixed(scene_.mesh->vertices.size(), 0);
+  bool any = false;
+  for (const Edge& edge : scene_.mesh->edges) {
+    if (edge.kind == EdgeKind::outer) fixed[at(edge.vertex[0])] = fixed[at(edge.vertex[1])] = 1, any = true;
+  }
+  if (!any) return std::vector<Vec2>(scene_.mesh->vertices.size());
+  std::optional<Fluid> fluid;
+  State wet = make_tied_state(scene_.mesh);
+  if (scene_.fluid) {
+    fluid.emplace(wet, *scene_.fluid, Pump{});
+    fluid->fill(wet, wetted_edges(scene_), scene_.initial_pressure);
+  }
+  const StaticSolver solver(scene_.mesh, bulk_, fixed);
+  std::vector<Vec2> displacement = solver.displacement(wall_loads(wet, fluid));
+  if (fluid && scene_.fast_forward && scene_.law && scene_.insertion.on_demand && scene_.cracks.empty() &&
+      !scene_.absorbing_boundary) {
+    find_ramp(solver, wet, fluid, displacement);
+  }
+  return displacement;
+}
+
+void Simulation::find_ramp(const StaticSolver& solver, State& wet, std::optional<Fluid>& fluid,
+                           const std::vector<Vec2>& first) {
+  const auto point = [&](double pressure, std::vector<Vec2> displacement) {
+    wet.displacement = displacement;
+    fluid->rebuild(wet);
+    return Ramp::Point{pressure, fluid->volume(0), std::move(displacement)};
+  };
+  const auto equilibrium = [&](double pressure, const std::vector<Vec2>& start) {
+    wet.fluid.cavities[0].pressure = pressure;
+    return solver.displacement(wall_loads(wet, fluid), start);
+  };
+  const double p0 = scene_.initial_pressure;
+  const double p1 = p0 + scene_.cohesive.tensile_strength;
+  const Ramp::Point at_rest = point(p0, first);
+  const Ramp::Point second = point(p1, equilibrium(p1, first));
+  const std::optional<double> onset =
+      onset_pressure(wet, bulk_, scene_.cohesive, scene_.insertion.threshold, at_rest, second);
+  if (!onset || *onset <= p0) return;
+  Ramp ramp(at_rest, point(*onset, equilibrium(*onset, second.displacement)), *scene_.fluid);
+  // When has the pump injected that much?
+  double low = 0.0, high = 1e-6;
+  for (int i = 0; i < 100 && scene_.pump.volume(0.0, high) < ramp.capacity(); ++i) high *= 2.0;
+  if (scene_.pump.volume(0.0, high) < ramp.capacity()) return;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (scene_.pump.volume(0.0, middle) < ramp.capacity() ? low : high) = middle;
+  }
+  double round = 0.0;
+  for (const Edge& edge : scene_.mesh->edges) {
+    if (edge.kind == EdgeKind::wellbore)
+      round += norm(scene_.mesh->vertices[at(edge.vertex[1])] - scene_.mesh->vertices[at(edge.vertex[0])]);
+  }
+  if (low < 2.0 * round / wave_speeds(scene_.stiffness, scene_.density).s) return;
+  ramp_ = std::move(ramp);
+  ramp_end_ = low;
+}
+
+Energies Simulation::ramp_to(double time) {
+  // Work of the pump: enthalpy of what it has injected since the last call, in small parts.
+  constexpr int parts = 16;
+  Cavity& well = state_.fluid.cavities.front();
+  double before = well.pressure;
+  for (int i = 1; i <= parts; ++i) {
+    const double injected = scene_.pump.volume(0.0, state_.time + (time - state_.time) * i / parts);
+    const double pressure = ramp_->pressure(injected);
+    const double mass = (injected - well.injected) * scene_.fluid->density;
+    well.work += mass * 0.5 * (scene_.fluid->enthalpy(before) + scene_.fluid->enthalpy(pressure));
+    well.mass += mass;
+    well.injected = injected;
+    before = pressure;
+  }
+  const double rate = ramp_->pressure_rate(before, scene_.pump.rate(time));
+  for (Index v = 0; v < state_.node_count(); ++v) {
+    state_.displacement[at(v)] = ramp_->displacement(v, before);
+    state_.velocity[at(v)] = rate * ramp_->compliance(v);
+  }
+  fluid_->rebuild(state_);
+  well.volume = fluid_->volume(0);
+  well.pressure = scene_.fluid->pressure(well.mass, well.volume);
+  state_.time = time;
+  // The rock is in motion from the first instant: the pump's start gave it that.
+  const double kinetic = kinetic_energy(state_.velocity);
+  if (time == 0.0) well.work = kinetic;
+  Energies e = potential_energies();
+  e.kinetic = kinetic;
+  return with_residual(e);
 }
 
 void Simulation::settle() {
@@ -269,6 +349,17 @@ void Simulation::cut_cracks() {
   for (const Index e : scene_.cracks) cohesive_->cut(state_, state_.cohesive.of_edge[at(e)]);
 }
 
+void Simulation::add_tied_edges_at(Index vertex, std::vector<Index>& edges) const {
+  for (const Index corner : corners_at(state_, vertex)) {
+    for (const Index side : {corner % 3, (corner + 2) % 3}) {
+      const Index e = scene_.mesh->triangle_edges[at(corner / 3)][at(side)];
+      if (scene_.mesh->edges[at(e)].kind == EdgeKind::interior && state_.cohesive.of_edge[at(e)] < 0) {
+        edges.push_back(e);
+      }
+    }
+  }
+}
+
 void Simulation::insert_stressed() {
   const Mesh& mesh = *scene_.mesh;
   std::vector<std::vector<Index>> found(block_stressed_.size());
@@ -291,8 +382,22 @@ void Simulation::insert_stressed() {
     }
   });
   std::vector<Index> edges;
-  for (const auto& part : found) edges.insert(edges.end(), part.begin(), part.end());
+  for (const auto& part : found) {
+    for (const Index e : part) {
+      for (const Index v : mesh.edges[at(e)].vertex) add_tied_edges_at(v, edges);
+    }
+  }
+  // Elements that bear that much and have an end that is tied yet: the tip of a fracture to be.
+  for (const CohesiveHistory& h : state_.cohesive.histories) {
+    const auto& n = state_.cohesive.nodes[at(h.element)];
+    if ((n[0] != n[2] && n[1] != n[3]) || cohesive_->utilisation(state_, h) < scene_.insertion.threshold)
+      continue;
+    const auto& ends = mesh.edges[at(state_.cohesive.edge[at(h.element)])].vertex;
+    if (n[0] == n[2]) add_tied_edges_at(ends[0], edges);
+    if (n[1] == n[3]) add_tied_edges_at(ends[1], edges);
+  }
   std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   insert(edges);
 }
 
@@ -438,15 +543,7 @@ void Simulation::advance(double dt, Energies* account) {
   }
   if (account != nullptr) {
     // ½ Σ m v(n−½)·v(n+½): with the stored energies at n this is what the integrator conserves.
-    account->kinetic = sum_over_blocks(state_.node_count(), [&](Index begin, Index end) {
-      double sum = 0.0;
-      for (Index n = begin; n < end; ++n) {
-        if (state_.inverse_mass[at(n)] > 0.0) {
-          sum += 0.5 * dot(velocity_before_[at(n)], state_.velocity[at(n)]) / state_.inverse_mass[at(n)];
-        }
-      }
-      return sum;
-    });
+    account->kinetic = kinetic_energy(velocity_before_);
     account->viscous = state_.dissipation.viscous;
     account->external -= radiated;
     stopwatch_.lap(Stopwatch::ledger);
@@ -454,6 +551,18 @@ void Simulation::advance(double dt, Energies* account) {
   state_.time += dt;
   state_.time_step = dt;
   ++state_.step;
+}
+
+double Simulation::kinetic_energy(const std::vector<Vec2>& before) const {
+  return sum_over_blocks(state_.node_count(), [&](Index begin, Index end) {
+    double sum = 0.0;
+    for (Index n = begin; n < end; ++n) {
+      if (state_.inverse_mass[at(n)] > 0.0) {
+        sum += 0.5 * dot(before[at(n)], state_.velocity[at(n)]) / state_.inverse_mass[at(n)];
+      }
+    }
+    return sum;
+  });
 }
 
 Energies Simulation::potential_energies() const {
@@ -472,6 +581,10 @@ Energies Simulation::potential_energies() const {
 Energies Simulation::step_and_account(double dt) {
   Energies e;
   advance(dt, &e);
+  return with_residual(e);
+}
+
+Energies Simulation::with_residual(Energies e) {
   const double stored = e.kinetic + e.strain + e.cohesive + e.fluid;
   const double spent = e.fracture + e.friction + e.viscous;
   scale_ = std::max({scale_, std::abs(e.external), std::abs(e.strain), std::abs(e.fluid), spent});

@@ -120,22 +120,17 @@ void part_node(State& state, Index node, Parting& parting) {
 }
 
 void part_nodes(State& state, Index vertex, std::vector<Parting>& partings) {
-  // A vertex's corners are one segment of node_corners still: that of the node it began with.
-  const auto vertices = static_cast<Index>(state.mesh->vertices.size());
-  const Index first = state.node_first[at(vertex)];
-  const Index last = vertex + 1 < vertices ? state.node_first[at(vertex + 1)]
-                                           : static_cast<Index>(state.node_corners.size());
+  const std::span<const Index> corners = corners_at(state, vertex);
   const std::size_t before = partings.size();
-  for (Index k = first; k < last;) {
-    const Index node = state.node_of_corner[at(state.node_corners[at(k)])];
-    k += state.node_size[at(node)];
+  for (std::size_t k = 0; k < corners.size();) {
+    const Index node = state.node_of_corner[at(corners[k])];
+    k += at(state.node_size[at(node)]);
     Parting parting{vertex, {}};
     part_node(state, node, parting);
     if (parting.nodes.size() > 1) partings.push_back(std::move(parting));
   }
   if (partings.size() == before) return;
-  for (Index k = first; k < last; ++k) {
-    const Index corner = state.node_corners[at(k)];
+  for (const Index corner : corners) {
     for (const Index side : {corner % 3, (corner + 2) % 3}) {
       const Index element = state.cohesive.of_edge[at(state.mesh->triangle_edges[at(corner / 3)][at(side)])];
       if (element >= 0) look_up_nodes(state, element);
@@ -196,6 +191,14 @@ void insert_all(State& state) {
     if (mesh.edges[at(e)].kind == EdgeKind::interior) append_element(state, e, 0);
   }
   state.cohesive.initial = state.cohesive.count();
+}
+
+std::span<const Index> corners_at(const State& state, Index vertex) {
+  // One segment of node_corners still, whatever nodes it has parted into: that of the node it began with.
+  const Index first = state.node_first[at(vertex)];
+  const Index last = vertex + 1 < state.mesh->vertex_count() ? state.node_first[at(vertex + 1)]
+                                                             : static_cast<Index>(state.node_corners.size());
+  return {state.node_corners.data() + first, at(last - first)};
 }
 
 std::vector<Parting> insert_elements(State& state, std::span<const Index> edges, std::uint16_t material) {

@@ -67,6 +67,8 @@ class Cohesive {
   /// How near an edge of a material is to its strength under a stress, 1 at the strength:
   /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param along the edge, unit
   static double utilisation(const CohesiveMaterial& material, Sym2 stress, Vec2 along);
+  /// The same of the most loaded point of an element; 1 or more once it is damaged.
+  double utilisation(const State& state, const CohesiveHistory& history) const;
 
   /// Recoverable energy of all elements [J/m].
   double stored_energy(const State& state) const;

@@ -49,7 +49,9 @@ class Fluid {
   /// Rebuilds what is derived from the state (after a resume).
   void rebuild(const State& state);
 
-  double energy(const State& state) const;         ///< [J/m]
+  double energy(const State& state) const;  ///< [J/m]
+  /// Volume of a cavity when last measured, after rebuild() or advance() [m2].
+  double volume(Index cavity) const { return volume_[static_cast<std::size_t>(cavity)]; }
   double wetted_length(const State& state) const;  ///< of wetted fractures, one side [m]
   /// Wall force on a corner [N/m].
   struct CornerLoad {

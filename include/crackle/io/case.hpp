@@ -135,9 +135,10 @@ struct Case {
   } fluid;
 
   struct Run {
-    double end_time = 0.0;   ///< [s]
-    double time_step = 0.0;  ///< [s]; 0: "auto"
-    double safety = 0.8;     ///< fraction of the stable time step taken by "auto" [-]
+    double end_time = 0.0;     ///< [s]
+    double time_step = 0.0;    ///< [s]; 0: "auto"
+    bool fast_forward = true;  ///< the elastic ramp by static solves, where it holds
+    double safety = 0.8;       ///< fraction of the stable time step taken by "auto" [-]
   } run;
 
   /// Where the local coordinates lie on Earth, for the seismic catalog. x points east. With depth_axis

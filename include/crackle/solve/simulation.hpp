@@ -12,6 +12,7 @@
 #include "crackle/seismic/slip_events.hpp"
 #include "crackle/solid/bulk.hpp"
 #include "crackle/solve/boundary.hpp"
+#include "crackle/solve/ramp.hpp"
 #include "crackle/solve/stopwatch.hpp"
 #include "crackle/solve/time_step.hpp"
 #include "crackle/state/state.hpp"
@@ -42,8 +43,9 @@ struct Scene {
   std::optional<CompressibleFluid> fluid;
   double initial_pressure = 0.0;  ///< of the fluid [Pa]
   Pump pump;
-  double thickness = 1.0;   ///< for magnitudes [m]
-  double slip_rate = 1e-2;  ///< at which the slip of a joint is an event [m/s]
+  bool fast_forward = false;  ///< the elastic ramp by linear solves, where it holds
+  double thickness = 1.0;     ///< for magnitudes [m]
+  double slip_rate = 1e-2;    ///< at which the slip of a joint is an event [m/s]
 };
 
 /// Energies per metre of thickness [J/m], at full steps; stored ones are changes since the start of
@@ -101,6 +103,13 @@ class Simulation {
   Index rough_insertions() const { return rough_insertions_; }
   double wellbore_pressure() const;  ///< [Pa]; 0 without fluid
 
+  /// End of the elastic ramp [s], up to which the state follows from static solves; 0: no ramp. It is
+  /// there where elements come on demand, no crack is cut, the boundary is fixed, no edge is at its threshold
+  /// at the start, and the ramp lasts twice as long as a shear wave takes round the wellbore.
+  double ramp_end() const { return ramp_end_; }
+  /// Sets the state on the ramp at a time [s], first at 0 and then ever later. @return the energies there
+  Energies ramp_to(double time);
+
   /// One explicit step of length dt [s].
   void step(double dt) { advance(dt, nullptr); }
   /// The same, with the energies at the time before the step. @throws NumericalError when anything
@@ -115,7 +124,11 @@ class Simulation {
   double imbalance();
 
  private:
+  std::vector<Vec2> geostatic_displacement();
+  void find_ramp(const StaticSolver& solver, State& wet, std::optional<Fluid>& fluid,
+                 const std::vector<Vec2>& first);
   void settle();
+  Energies with_residual(Energies e);
   void relax();
   void advance(double dt, Energies* account);
   void move_nodes(double dt);
@@ -125,9 +138,12 @@ class Simulation {
   void cut_cracks();
   void prepare_insertion();
   void set_screen();
+  void add_tied_edges_at(Index vertex, std::vector<Index>& edges) const;
   void insert_stressed();
   void insert(const std::vector<Index>& edges);
   Energies potential_energies() const;
+  /// ½ Σ m v_before · v [J/m]
+  double kinetic_energy(const std::vector<Vec2>& before) const;
   [[noreturn]] void stop_not_finite() const;
 
   Scene scene_;
@@ -148,6 +164,8 @@ class Simulation {
   std::vector<char> block_has_elements_;  // per block of triangles: any on its sides
   double slowed_ = 1.0;                   // share of the step that inserted elements leave
   Index rough_insertions_ = 0;
+  std::optional<Ramp> ramp_;
+  double ramp_end_ = 0.0;
   Energies reference_;  // stored energies at the start
   double scale_ = 0.0;  // largest energy so far
   Index geostatic_slips_ = 0;

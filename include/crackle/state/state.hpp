@@ -193,6 +193,9 @@ void fix_nodes(State& state, EdgeKind kind);
 /// Adds a cohesive element on every interior edge; needs a split state. Offsets are zero.
 void insert_all(State& state);
 
+/// Corners at a mesh vertex, of all its nodes, in a state that was made tied.
+std::span<const Index> corners_at(const State& state, Index vertex);
+
 /// A node that has parted into several, each a fan of corners round a vertex that are still tied.
 struct Parting {
   Index vertex = -1;
