@@ -57,12 +57,13 @@ void print_onset(const Scene& scene, double end_time) {
       1e-6 * onset.wall_pressure, 1e3 * onset.time);
 }
 
-void print_cost(const Case& scene, const Mesh& mesh, const WallTime& time, double meshing, int threads) {
+void print_cost(const Case& scene, const Mesh& mesh, const Steps& steps, const WallTime& time, double meshing,
+                int threads) {
   fmt::print("\nCost\n");
   fmt::print("  memory {} of {} available\n", bytes_text(memory_of_run(mesh.triangle_count())),
              bytes_text(available_memory()));
-  fmt::print("  output {} in {} frames\n", bytes_text(output_of_run(scene, mesh.triangle_count())),
-             frames_of_run(scene));
+  fmt::print("  output {} in {} frames\n", bytes_text(output_of_run(scene, mesh.triangle_count(), steps)),
+             frames_of_run(scene, steps));
   fmt::print("  wall time about {} on {} thread{}: mesh {}, geostatic stage {}, steps {}, output {}\n",
              duration_text(meshing + time.total()), threads, threads == 1 ? "" : "s", duration_text(meshing),
              duration_text(time.start), duration_text(time.steps), duration_text(time.output));
@@ -109,7 +110,7 @@ int check_command(const CheckOptions& options) {
              steps.length, scene.run.end_time);
   print_onset(solver_scene, scene.run.end_time);
   std::fflush(stdout);
-  print_cost(scene, *mesh, wall_time_of_run(scene, solver_scene, steps, threads), meshing, threads);
+  print_cost(scene, *mesh, steps, wall_time_of_run(scene, solver_scene, steps, threads), meshing, threads);
 
   const std::vector<std::string> warnings = scene_warnings(solver_scene, scene.run.end_time, stable);
   fmt::print("\n{}\n", warnings.empty() ? "No warnings" : "Warnings");

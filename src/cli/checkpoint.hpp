@@ -19,8 +19,8 @@ namespace crackle {
 struct RunMemory {
   double step_length = 0.0;  ///< planned [s]
   TallyMemory tally;
-  std::int64_t next_history = 0;                 ///< number of the row that comes next
-  std::int64_t next_fields = 0;                  ///< and of the frame
+  double next_history = 0.0;                     ///< number of the row that comes next
+  double next_fields = 0.0;                      ///< and of the frame
   double wall = 0.0;                             ///< since the start, over all its processes [s]
   double loop_wall = 0.0;                        ///< in steps [s]
   double output_wall = 0.0;                      ///< [s]

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "crackle/core/errors.hpp"
@@ -17,6 +19,7 @@ namespace {
 // Measured on runs of the granite wellbore at the end of 1.68 ms; zlib, bytes a triangle.
 constexpr double frame_base = 44.0, frame_displacement = 47.0, frame_velocity = 47.0, frame_stress = 22.0;
 constexpr double history_row = 280.0;
+constexpr double checkpoint_triangle = 510.0;
 constexpr double frame_seconds = 4.6e-6;  // a triangle, most of it zlib
 
 // Where nothing is timed. The geostatic solve grows faster than the mesh (fill of the factor).
@@ -24,6 +27,9 @@ constexpr double typical_core_ns = 40.0;
 constexpr double solve_seconds_at_1e5 = 2.5, solve_growth = 1.6;
 
 constexpr int timed_steps = 24;
+
+// Years for any mesh worth a run.
+constexpr double most_steps = 1e11;
 
 /// Wall time [s] that one call takes when nothing else disturbs it: the lower quartile of some.
 template <class Work>
@@ -44,11 +50,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-std::int64_t frames_of_run(const Case& scene) {
-  return 1 + static_cast<std::int64_t>(std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9));
+std::int64_t frames_of_run(const Case& scene, const Steps& steps) {
+  const double frames = std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9);
+  return 1 + static_cast<std::int64_t>(std::min(frames, static_cast<double>(steps.count)));
 }
 
-double output_of_run(const Case& scene, double triangles) {
+double output_of_run(const Case& scene, double triangles, const Steps& steps) {
   const auto wanted = [&](const char* name) {
     const auto& fields = scene.output.fields;
     return fields.empty() || std::find(fields.begin(), fields.end(), name) != fields.end();
@@ -57,8 +64,24 @@ double output_of_run(const Case& scene, double triangles) {
   if (wanted("displacement_m")) frame += frame_displacement;
   if (wanted("velocity_m_s")) frame += frame_velocity;
   if (wanted("stress_Pa")) frame += frame_stress;
-  return frame * triangles * static_cast<double>(frames_of_run(scene)) +
-         history_row * scene.run.end_time / scene.output.history_every;
+  const double rows =
+      std::min(scene.run.end_time / scene.output.history_every, static_cast<double>(steps.count));
+  return frame * triangles * static_cast<double>(frames_of_run(scene, steps)) + history_row * rows;
+}
+
+void require_disk(const Case& scene, double triangles, const Steps& steps, const std::string& folder) {
+  std::error_code unknown;
+  const auto space = std::filesystem::space(folder, unknown);
+  if (unknown) return;
+  // Two checkpoints and a third that is being written.
+  const double needed = output_of_run(scene, triangles, steps) + 3.0 * checkpoint_triangle * triangles;
+  const double available = static_cast<double>(space.available);
+  if (needed <= available) return;
+  throw CaseError(
+      scene.file, 0, 0,
+      fmt::format("the run would write {} in {} frames and {} are free in {}: write fewer frames "
+                  "([output] fields_every) or fields, or give another folder with -o DIR",
+                  bytes_text(needed), frames_of_run(scene, steps), bytes_text(available), folder));
 }
 
 Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh) {
@@ -72,6 +95,13 @@ Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh
     }
   }
   const double count = std::max(1.0, std::ceil(scene.run.end_time / dt - 1e-9));
+  if (count > most_steps) {
+    throw CaseError(
+        scene.file, 0, 0,
+        fmt::format("run.end_time = {:.3g} s takes {:.1e} steps, more than the {:.0e} that can be "
+                    "waited for: {}",
+                    scene.run.end_time, count, most_steps, stable.explain(mesh)));
+  }
   return {static_cast<std::int64_t>(count), scene.run.end_time / count};
 }
 
@@ -91,7 +121,7 @@ StableStep stable_step_of(const Scene& scene) {
 WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const Steps& steps, int threads) {
   const Index triangles = solver_scene.mesh->triangle_count();
   WallTime time;
-  time.output = frame_seconds * triangles * static_cast<double>(frames_of_run(scene));
+  time.output = frame_seconds * triangles * static_cast<double>(frames_of_run(scene, steps));
   if (triangles <= largest_timed_mesh) {
     // Without stress nothing slips in the geostatic stage, whatever the scene is.
     Scene probe = solver_scene;

@@ -25,18 +25,22 @@ void require_memory(const Case& scene);
 /// The same once the number of triangles is known.
 void require_memory(const Case& scene, Index triangles);
 
-/// Size of all frames of a run and its other files [bytes].
-double output_of_run(const Case& scene, double triangles);
-
-/// Number of field frames a run writes.
-std::int64_t frames_of_run(const Case& scene);
-
-/// Steps that a run takes and their length. @throws CaseError when run.time_step is not stable
+/// Steps that a run takes and their length. @throws CaseError when run.time_step is not stable, or when
+/// they are more than anybody can wait for
 struct Steps {
   std::int64_t count = 0;
   double length = 0.0;  ///< [s]
 };
 Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh);
+
+/// Size of all frames of a run and its other files [bytes].
+double output_of_run(const Case& scene, double triangles, const Steps& steps);
+
+/// @throws CaseError when that and its checkpoints would not fit on the disk that a folder is on
+void require_disk(const Case& scene, double triangles, const Steps& steps, const std::string& folder);
+
+/// Number of field frames a run writes, not more than one a step.
+std::int64_t frames_of_run(const Case& scene, const Steps& steps);
 
 /// Stable step of a scene at rest, without its static solve.
 StableStep stable_step_of(const Scene& scene);

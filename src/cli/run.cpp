@@ -160,6 +160,7 @@ class Run {
     for (const std::string& line : scene_warnings(solver_scene, scene_.run.end_time, simulation_->stable()))
       say(line);
     const Steps steps = steps_of_run(scene_, simulation_->stable(), *mesh);
+    require_disk(scene_, mesh->triangle_count(), steps, folder_.path());
     memory_.step_length = steps.length;
     say(fmt::format("{} steps of {:.3g} s on {} threads", steps.count, steps.length, threads_));
     folder_.write_resolved(scene_);

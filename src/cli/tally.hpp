@@ -78,18 +78,17 @@ class Tally {
 /// Says when an output at regular times is due: at the step nearest to each.
 class Due {
  public:
-  /// @param next number of the output that comes next
-  explicit Due(double interval, std::int64_t next = 0) : interval_(interval), next_(next) {}
+  /// @param next number of the output that comes next; a number that an integer need not hold
+  explicit Due(double interval, double next = 0.0) : interval_(interval), next_(next) {}
   bool is(double time, double dt) {
-    if (time + 0.5 * dt < interval_ * static_cast<double>(next_)) return false;
-    next_ = static_cast<std::int64_t>(std::floor((time + 0.5 * dt) / interval_)) + 1;
+    if (time + 0.5 * dt < interval_ * next_) return false;
+    next_ = std::floor((time + 0.5 * dt) / interval_) + 1.0;
     return true;
   }
-  std::int64_t next() const { return next_; }
+  double next() const { return next_; }
 
  private:
-  double interval_;
-  std::int64_t next_;
+  double interval_, next_;
 };
 
 }  // namespace crackle

@@ -77,6 +77,14 @@ TEST_F(Resume, LeavesTheSameBytes) {
   expect_same_results(path("parts"), path("whole"));
 }
 
+TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
+  const std::vector<std::string> on_demand{"--set", "cohesive.insertion=on_demand"};
+  ASSERT_EQ(run("whole", on_demand).code, 0);
+  EXPECT_EQ(interrupted_run("parts", 15, on_demand).code, 75);
+  EXPECT_EQ(resume("parts", "2").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+}
+
 TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
   const std::vector<std::string> absorbing{"--set", "boundary.outer=absorbing"};
   ASSERT_EQ(run("whole", absorbing).code, 0);

@@ -141,14 +141,15 @@ inline void add_numbers(std::vector<Column>& columns, const std::string& name, N
   const std::size_t bytes = components * size_of(number);
   columns.push_back({name, number, components, owner.list, owner.count,
                      [owner, offset, bytes](std::byte* to) {
+                       if (owner.count == 0) return;
                        const std::byte* from = owner.first(owner.count) + offset;
                        for (std::size_t i = 0; i < owner.count; ++i)
                          std::memcpy(to + i * bytes, from + i * owner.stride, bytes);
                      },
                      [owner, offset, bytes](const std::byte* from, std::size_t count) {
-                       std::byte* to = owner.first(count) + offset;
+                       std::byte* first = owner.first(count);
                        for (std::size_t i = 0; i < count; ++i)
-                         std::memcpy(to + i * owner.stride, from + i * bytes, bytes);
+                         std::memcpy(first + offset + i * owner.stride, from + i * bytes, bytes);
                      }});
 }
 

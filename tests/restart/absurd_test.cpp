@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Scenes that nobody would want and nothing forbids: each ends in bounded time and memory, done or with
+// the reason why not.
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include "process.hpp"
+
+namespace crackle_test {
+namespace {
+
+struct Absurd {
+  const char* name;
+  std::vector<std::string> settings;
+  int code = 0;
+  const char* reason = "";
+};
+void PrintTo(const Absurd& scene, std::ostream* stream) { *stream << scene.name; }
+
+const std::vector<Absurd> scenes{
+    {"OneTriangleAcrossTheWellbore",
+     {"mesh.size_fine=0.5", "mesh.fine_radius=0", "mesh.size_coarse=0.5", "wellbore.segments=3"}},
+    {"DomainOfAMicrometre",
+     {"domain.width=1e-6", "domain.height=1e-6", "wellbore.diameter=1e-7", "mesh.size_fine=1.5e-8",
+      "mesh.fine_radius=1.2e-7", "mesh.size_coarse=1e-7", "run.end_time=1e-10", "fluid.pump.0.rate=1e-7"}},
+    {"DomainOfAThousandKilometres",
+     {"domain.width=1e6", "domain.height=1e6", "wellbore.diameter=1e5", "mesh.size_fine=1.5e4",
+      "mesh.fine_radius=1.2e5", "mesh.size_coarse=1e5", "run.end_time=100"}},
+    {"HardlyAnyTensileStrength", {"rock.tensile_strength=1e-3"}},
+    {"HardlyAnyStrength", {"rock.tensile_strength=1e-3", "rock.cohesion=1e-3"}},
+    {"NineOrdersStronger", {"rock.tensile_strength=1e12", "rock.cohesion=1e12"}},
+    {"BrittleBeyondGlass", {"rock.fracture_energy_mode1=1e-12", "rock.fracture_energy_mode2=1e-12"}},
+    {"TougherThanSteel", {"rock.fracture_energy_mode1=1e12", "rock.fracture_energy_mode2=1e12"}},
+    {"FluidWithoutCompressibility", {"fluid.bulk_modulus=inf"}, 2, "must be finite"},
+    {"FluidWithHardlyAnyCompressibility", {"fluid.bulk_modulus=1e30"}, 4, "energy residual"},
+    {"FluidLikeVacuum", {"fluid.bulk_modulus=1e-3"}},
+    {"PumpOfAMillion", {"fluid.pump.0.rate=1e6"}, 4, "energy residual"},
+    {"EverythingTornApart", {"stress.xx=1e8", "stress.yy=1e8"}, 4, "cavity 0 has no volume left"},
+    {"EverythingTornApartOnDemand",
+     {"stress.xx=1e8", "stress.yy=1e8", "cohesive.insertion=on_demand"},
+     4,
+     "energy residual"},
+    {"RockLikeJelly", {"rock.young_modulus=1"}, 4, "static equilibrium"},
+    {"RockLighterThanNothing", {"rock.density=1e-20"}, 2, "steps, more than"},
+    {"FluidThatCrushesTheRock", {"fluid.initial_pressure=1e12"}, 4, "static equilibrium"},
+    {"MeshOfNanometres", {"mesh.size_fine=1e-9", "mesh.size_coarse=1e-9"}, 2, "of memory"},
+    {"EndTimeOfOneStep", {"run.end_time=1e-9"}},
+    {"EndTimeOfNothing", {"run.end_time=1e-300"}},
+    {"EndTimeOfThirtyYears", {"run.end_time=1e9"}, 2, "steps, more than"},
+    {"FramesThatFillTheDisk", {"run.end_time=60", "output.fields_every=1e-300"}, 2, "the run would write"},
+    {"AFrameAStep", {"run.end_time=1e-5", "output.fields_every=1e-300", "output.history_every=1e-300"}},
+};
+
+class AbsurdScene : public CliTest, public testing::WithParamInterface<Absurd> {};
+INSTANTIATE_TEST_SUITE_P(Of, AbsurdScene, testing::ValuesIn(scenes),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_P(AbsurdScene, EndsInBoundedTimeAndMemory) {
+  write("case.toml", good_case);
+  std::vector<std::string> arguments{"run",   path("case.toml"),   "-q", "-j", "1", "-o", path("out"),
+                                     "--set", "run.end_time=20 us"};
+  for (const std::string& setting : GetParam().settings)
+    arguments.insert(arguments.end(), {"--set", setting});
+  Process process(arguments, path("process"), [] {
+    const rlimit seconds{20, 20}, bytes{rlim_t{2} << 30, rlim_t{2} << 30};
+    setrlimit(RLIMIT_CPU, &seconds);
+    setrlimit(RLIMIT_AS, &bytes);
+  });
+  const Outcome outcome = process.wait();
+  if (GetParam().code != 0) return expect_refusal(outcome, GetParam().code, GetParam().reason);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+}  // namespace
+}  // namespace crackle_test

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Disks that are full, folders that cannot be written to or are gone: a clear error, what was written
+// before is whole, and the run can be resumed when there is room again.
+#include <gmock/gmock.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "process.hpp"
+
+namespace crackle_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FullDisk : public CliTest {
+ protected:
+  FullDisk() { write("case.toml", good_case); }
+  ~FullDisk() override {
+    if (mounted_) umount2(disk().c_str(), MNT_DETACH);
+  }
+
+  std::string disk() const { return path("disk"); }
+  std::vector<std::string> arguments(const std::string& folder) const {
+    return {"run",
+            path("case.toml"),
+            "-q",
+            "-j",
+            "1",
+            "-o",
+            folder,
+            "--set",
+            "run.end_time=0.7 ms",
+            "--set",
+            "output.checkpoint_every=20 ms"};  // of wall-clock time
+  }
+  Outcome run(const std::string& folder, const std::function<void()>& prepare = {}) {
+    return Process(arguments(folder), path("process"), prepare).wait();
+  }
+  Outcome resume(const std::string& folder) {
+    return Process({"run", "--resume", folder, "-q", "-j", "1"}, path("process")).wait();
+  }
+  // A disk of its own for this test. @return false where that is not allowed
+  bool mount_disk(const char* size) {
+    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0)
+      return false;
+    fs::create_directory(disk());
+    mounted_ = mount("tmpfs", disk().c_str(), "tmpfs", 0, size) == 0;
+    return mounted_;
+  }
+  bool remount(unsigned long flags, const char* size) {
+    return mount("tmpfs", disk().c_str(), "tmpfs", MS_REMOUNT | flags, size) == 0;
+  }
+
+ private:
+  bool mounted_ = false;
+};
+
+void expect_refusal_to_write(const Outcome& outcome, const std::string& reason) {
+  expect_refusal(outcome, 2, "cannot write: " + reason);
+}
+
+TEST_F(FullDisk, StopsTheRunWhichGoesOnWhenThereIsRoom) {
+  if (!mount_disk("size=20m")) GTEST_SKIP() << "no right to mount";
+  ASSERT_EQ(run(path("whole")).code, 0);
+  const std::string folder = disk() + "/run", other = disk() + "/other";
+  Process process(arguments(folder), path("process"));
+  ASSERT_TRUE(wait_for(folder + "/checkpoint_b.h5", process));
+  process.signal(SIGSTOP);
+  write("disk/other", std::string(20 << 20, 'x'));  // as much of it as there is room for
+  process.signal(SIGCONT);
+  expect_refusal_to_write(process.wait(), "No space left on device; free some space");
+  expect_readable_frames(folder);
+  fs::remove(other);
+  const Outcome again = resume(folder);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(read_text(folder + "/run.log"), HasSubstr("resumed from checkpoint"));
+  expect_same_results(folder, path("whole"));
+}
+
+TEST_F(FullDisk, IsSeenBeforeTheRunStarts) {
+  if (!mount_disk("size=3m")) GTEST_SKIP() << "no right to mount";
+  expect_refusal(run(disk() + "/run"), 2, "the run would write");
+}
+
+TEST_F(FullDisk, ReadOnlyFolder) {
+  if (!mount_disk("size=10m")) GTEST_SKIP() << "no right to mount";
+  fs::create_directory(disk() + "/run");
+  ASSERT_TRUE(remount(MS_RDONLY, "size=10m"));
+  expect_refusal(run(disk() + "/run"), 2, "run.log: cannot create: Read-only file system");
+  expect_refusal(run(disk() + "/new"), 2, "cannot create the output folder: Read-only file system");
+}
+
+// As with a quota: a checkpoint is larger than any file may be, everything else is not.
+TEST_F(FullDisk, LimitOfFileSize) {
+  ASSERT_EQ(run(path("whole")).code, 0);
+  const Outcome outcome = run(path("limited"), [] {
+    const rlimit limit{400000, 400000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  });
+  expect_refusal_to_write(outcome, "File too large");
+  EXPECT_THAT(outcome.err, HasSubstr("checkpoint_a.h5"));
+  EXPECT_FALSE(fs::exists(path("limited/checkpoint_a.h5.tmp")));
+  expect_readable_frames(path("limited"));
+  EXPECT_EQ(resume(path("limited")).code, 0);
+  expect_same_results(path("limited"), path("whole"));
+}
+
+TEST_F(FullDisk, FolderThatVanishesAndComesBack) {
+  ASSERT_EQ(run(path("whole")).code, 0);
+  Process process(arguments(path("out")), path("process"));
+  ASSERT_TRUE(wait_for(path("out/checkpoint_b.h5"), process));
+  process.signal(SIGSTOP);
+  fs::rename(path("out"), path("away"));
+  process.signal(SIGCONT);
+  const Outcome outcome = process.wait();
+  expect_refusal(outcome, 2, "No such file or directory");
+  EXPECT_FALSE(fs::exists(path("out"))) << "is not made anew";
+  expect_readable_frames(path("away"));
+  EXPECT_EQ(resume(path("away")).code, 0);
+  expect_same_results(path("away"), path("whole"));
+}
+
+}  // namespace
+}  // namespace crackle_test
