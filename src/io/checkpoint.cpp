@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <new>
@@ -167,7 +168,8 @@ std::string read_text(hid_t file, const std::string& name) {
   std::string text(H5Tget_size(type), '\0');
   if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     refuse(name, "its case cannot be read");
-  return text.c_str();
+  text.resize(std::min(text.size(), text.find('\0')));
+  return text;
 }
 
 /// The items of a column in the file; how many is in `count`.

@@ -58,20 +58,20 @@ struct Column {
 namespace columns_detail {
 
 template <class T>
-constexpr bool is_number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+inline constexpr bool is_number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class T>
-constexpr bool is_array = false;
-template <class T, std::size_t N>
-constexpr bool is_array<std::array<T, N>> = true;
+inline constexpr bool is_array = false;
+template <class T, std::size_t count>
+inline constexpr bool is_array<std::array<T, count>> = true;
 template <class T>
-constexpr bool is_list = false;
+inline constexpr bool is_list = false;
 template <class T>
-constexpr bool is_list<std::vector<T>> = true;
+inline constexpr bool is_list<std::vector<T>> = true;
 
 template <class T>
-constexpr bool is_shared = false;
+inline constexpr bool is_shared = false;
 template <class T>
-constexpr bool is_shared<std::shared_ptr<T>> = true;
+inline constexpr bool is_shared<std::shared_ptr<T>> = true;
 
 struct Anything {
   template <class T>
