@@ -9,11 +9,14 @@ import sys
 from run_data import Run, RunError
 
 import events_figure
+import field_time_figure
 import fractures_figure
 import look
 import pressure_figure
 
-FIGURES = {"pressure.png": pressure_figure, "fractures.png": fractures_figure, "events.png": events_figure}
+FIGURES = {"pressure.png": pressure_figure.draw, "fractures.png": fractures_figure.draw,
+           "events.png": events_figure.draw}
+IN_FIELD_TIME = {"pressure.png": field_time_figure.draw_history, "fractures.png": field_time_figure.draw_profiles}
 
 
 def main():
@@ -28,8 +31,8 @@ def main():
         run = Run(arguments.run)
         folder = pathlib.Path(arguments.output or arguments.run)
         folder.mkdir(parents=True, exist_ok=True)
-        for name, figure in FIGURES.items():
-            figure.draw(run, folder / name)
+        for name, draw in (IN_FIELD_TIME if field_time_figure.is_one(run) else FIGURES).items():
+            draw(run, folder / name)
             if arguments.small:
                 look.shrink(folder / name)
     except (RunError, OSError) as error:

@@ -17,6 +17,7 @@
 #include "joints.hpp"
 #include "load.hpp"
 #include "parameters.hpp"
+#include "quasi_static_scene.hpp"
 #include "scene.hpp"
 
 namespace crackle {
@@ -80,17 +81,32 @@ void print_cost(const Case& scene, const Mesh& mesh, const Steps& steps, const W
   }
 }
 
+void check_quasi_static(const Case& scene) {
+  const auto mesh = std::make_shared<const Mesh>(make_quasi_static_mesh(scene));
+  const QuasiStaticScene stage = make_quasi_static_scene(scene, mesh);
+  fmt::print("\nMesh: {} triangles, half of the domain; a path of {} edges\n", mesh->triangle_count(),
+             stage.wings.front().path.size());
+  fmt::print("\nNumbers and warnings\n");
+  for (const std::string& line : quasi_static_notes(scene, stage)) fmt::print("  {}\n", line);
+}
+
 }  // namespace
 
 int check_command(const CheckOptions& options) {
   const Case scene = load_case(options.case_file, options.overrides, options.seed);
-  require_memory(scene);
+  const RegimeChoice regime = choose_regime(scene);
+  if (!regime.quasi_static) require_memory(scene);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   omp_set_num_threads(threads);
 
   fmt::print("crackle {}: {}\n", version, scene.title.empty() ? options.case_file : scene.title);
   fmt::print("\nParameters, in SI units; tension is positive\n{}", parameter_table(scene));
+  fmt::print("\n{}\n", regime.reason);
   std::fflush(stdout);
+  if (regime.quasi_static) {
+    check_quasi_static(scene);
+    return 0;
+  }
 
   const auto start = std::chrono::steady_clock::now();
   NetworkReport network;

@@ -21,6 +21,8 @@
 #include "joints.hpp"
 #include "load.hpp"
 #include "progress.hpp"
+#include "quasi_static_scene.hpp"
+#include "run_quasi_static.hpp"
 #include "scene.hpp"
 #include "signals.hpp"
 #include "status.hpp"
@@ -335,8 +337,15 @@ class Run {
 
 int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folder) {
   Status status(folder, scene.run.end_time);
+  const RegimeChoice regime = choose_regime(scene);
+  folder.log(regime.reason);
+  if (!options.quiet) print_line(regime.reason);
   try {
-    const int code = Run(options, scene, folder, status).go();
+    if (regime.quasi_static && !options.resume.empty())
+      throw CaseError(options.resume +
+                      ": a run in field time keeps no checkpoints; run its resolved.toml again");
+    const int code = regime.quasi_static ? run_quasi_static(options, scene, folder, status)
+                                         : Run(options, scene, folder, status).go();
     status.finish(code == 0 ? "done" : "interrupted");
     return code;
   } catch (const std::exception& error) {
@@ -363,7 +372,7 @@ int resume_command(const RunOptions& options) {
 int run_command(const RunOptions& options) {
   if (!options.resume.empty()) return resume_command(options);
   const Case scene = load_case(options.case_file, options.overrides, options.seed);
-  require_memory(scene);
+  if (!choose_regime(scene).quasi_static) require_memory(scene);
   const std::string path =
       options.output.empty()
           ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()

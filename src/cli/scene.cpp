@@ -13,14 +13,14 @@ namespace {
 // Below this a triangle would set the time step of the whole run, or nearly have no area.
 constexpr double smallest_angle_deg = 5.0;
 
+}  // namespace
+
 PlaneStiffness rock_stiffness(const Case::Rock& rock) {
   if (!rock.young_modulus_normal) return isotropic_plane_strain(rock.young_modulus, rock.poisson_ratio);
   return transversely_isotropic_plane_strain({rock.young_modulus, *rock.young_modulus_normal,
                                               rock.poisson_ratio, *rock.poisson_ratio_normal,
                                               *rock.shear_modulus_normal, rock.bedding_angle});
 }
-
-}  // namespace
 
 MeshRecipe mesh_recipe(const Case& scene) {
   MeshRecipe recipe;

@@ -14,6 +14,9 @@ MeshRecipe mesh_recipe(const Case& scene);
 /// @param network where given, what became of the joints of a generated mesh. @throws MeshError
 Mesh make_mesh(const Case& scene, NetworkReport* network = nullptr);
 
+/// Of the rock, intact.
+PlaneStiffness rock_stiffness(const Case::Rock& rock);
+
 /// What the solver needs of a case, on an excavated mesh.
 Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated);
 

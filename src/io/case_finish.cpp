@@ -22,7 +22,8 @@ void check_wellbore(const Case& scene, const GivenKeys& given) {
          fmt::format("wellbore.diameter = {} m does not fit the domain of {} m x {} m", diameter,
                      scene.domain.width, scene.domain.height));
   }
-  if (diameter <= 0.0 && !scene.fluid.pump.empty() && scene.mesh.file.empty()) {
+  if (diameter <= 0.0 && !scene.fluid.pump.empty() && scene.mesh.file.empty() &&
+      scene.fracture.notch <= 0.0) {
     fail(given.place("wellbore.diameter"),
          "wellbore.diameter = 0 leaves the pump without a wellbore to inject into");
   }
@@ -144,6 +145,20 @@ void finish_damping(Case::Damping& damping, const GivenKeys& given) {
   if (!damping.viscosity && !damping.ratio) damping.ratio = 0.1;
 }
 
+void check_leak_off(const Case& scene, const GivenKeys& given) {
+  if (scene.fluid.leak_off == "carter" && scene.fluid.leak_off_coefficient <= 0.0)
+    fail(given.place("fluid.leak_off"),
+         "fluid.leak_off = \"carter\" needs a fluid.leak_off_coefficient above 0");
+  const Case::Rock& rock = scene.rock;
+  if (scene.fluid.leak_off == "diffusion" &&
+      (rock.permeability <= 0.0 || rock.porosity <= 0.0 || rock.pore_compressibility <= 0.0 ||
+       rock.pore_viscosity <= 0.0)) {
+    fail(given.place("fluid.leak_off"),
+         "fluid.leak_off = \"diffusion\" needs rock.permeability, porosity, pore_compressibility and "
+         "pore_viscosity above 0");
+  }
+}
+
 void finish_run(Case& scene, const GivenKeys& given) {
   if (scene.run.time_step > scene.run.end_time) {
     fail(given.latest({"run.time_step", "run.end_time"}),
@@ -174,6 +189,7 @@ void finish_case(ReadCase& read) {
   finish_damping(scene.damping, given);
   finish_bedding(scene.rock, given);
   check_compliance(scene, given);
+  check_leak_off(scene, given);
   if (scene.cohesive.penalty == 0.0) scene.cohesive.penalty = 20.0 * scene.rock.young_modulus;
   if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;
   if (scene.contact.tangential_penalty == 0.0) scene.contact.tangential_penalty = scene.cohesive.penalty;

@@ -25,6 +25,11 @@ const Quantity viscosity{"a viscosity", {"Pa s"}, "\"1e4 Pa s\""};
 const Quantity rate{
     "an injection rate per metre of thickness", {"m2/s", "m3/s"}, "\"65 l/s\" or \"0.065 m2/s\""};
 const Quantity per_area{"a number per area", {"1/m2"}, "\"320 1/m2\""};
+const Quantity permeability{"a permeability", {"m2"}, "\"1e-19 m2\""};
+const Quantity compressibility{"a compressibility", {"Pa-1"}, "\"1.5e-8 Pa-1\""};
+const Quantity storage{"a volume per pressure", {"m3/Pa"}, "\"1.35e-8 m3/Pa\""};
+const Quantity impedance{"a pressure per rate", {"Pa s/m3"}, "\"2e8 Pa s/m3\""};
+const Quantity friction_of_rate{"a pressure per rate squared", {"Pa s2/m6"}, "\"1e10 Pa s2/m6\""};
 const Quantity degrees{"an angle on Earth in degrees", {"degree"}, "8.5"};
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -155,6 +160,11 @@ std::vector<TableSpec> make_tables() {
       number("friction_angle", slot<&C::rock, &C::Rock::friction_angle>(), angle, friction, Need::always, "internal friction angle"),
       number("fracture_energy_mode1", slot<&C::rock, &C::Rock::fracture_energy_mode1>(), energy_per_area, breaking, Need::always, "fracture energy in opening"),
       number("fracture_energy_mode2", slot<&C::rock, &C::Rock::fracture_energy_mode2>(), energy_per_area, breaking, Need::always, "fracture energy in sliding"),
+      number("pore_pressure", slot<&C::rock, &C::Rock::pore_pressure>(), pressure, any, Need::never, "of the formation, in the quasi-static regime"),
+      number("permeability", slot<&C::rock, &C::Rock::permeability>(), permeability, not_negative, Need::never, "for fluid.leak_off = \"diffusion\""),
+      number("porosity", slot<&C::rock, &C::Rock::porosity>(), plain, Range{0.0, 1.0, true, false, "from 0 to below 1"}, Need::never, "for fluid.leak_off = \"diffusion\""),
+      number("pore_compressibility", slot<&C::rock, &C::Rock::pore_compressibility>(), compressibility, not_negative, Need::never, "of pores and what fills them, for diffusion"),
+      number("pore_viscosity", slot<&C::rock, &C::Rock::pore_viscosity>(), viscosity, not_negative, Need::never, "of the fluid in the pores, for diffusion"),
       number("young_modulus_normal", slot<&C::rock, &C::Rock::young_modulus_normal>(), pressure, stiffness, Need::never, "across the bedding of bedded rock; young_modulus is along it", "none: not bedded"),
       number("poisson_ratio_normal", slot<&C::rock, &C::Rock::poisson_ratio_normal>(), plain, poisson, Need::never, "strain along the bedding under stress across it", "rock.poisson_ratio, in bedded rock"),
       number("shear_modulus_normal", slot<&C::rock, &C::Rock::shear_modulus_normal>(), pressure, stiffness, Need::never, "shear modulus across the bedding", "that of Saint-Venant, in bedded rock"),
@@ -217,13 +227,32 @@ std::vector<TableSpec> make_tables() {
       number("density", slot<&C::fluid, &C::Fluid::density>(), density, positive, Need::never, "mass density of the fluid at the initial pressure"),
       number("initial_pressure", slot<&C::fluid, &C::Fluid::initial_pressure>(), pressure, any, Need::never, "of the fluid before pumping"),
       choice("wets", slot<&C::fluid, &C::Fluid::wets>(), {"broken"}, "which cohesive elements the fluid enters"),
+      number("viscosity", slot<&C::fluid, &C::Fluid::viscosity>(), viscosity, not_negative, Need::never, "along the fracture, in the quasi-static regime"),
+      number("cavitation_pressure", slot<&C::fluid, &C::Fluid::cavitation_pressure>(), pressure, any, Need::never, "below it the fluid boils, in the quasi-static regime", "0, or 5 MPa below rock.pore_pressure where that is small"),
+      choice("leak_off", slot<&C::fluid, &C::Fluid::leak_off>(), {"none", "carter", "diffusion"}, "into the rock, in the quasi-static regime"),
+      number("leak_off_coefficient", slot<&C::fluid, &C::Fluid::leak_off_coefficient>(), plain, not_negative, Need::never, "C_L in m/s^0.5, for fluid.leak_off = \"carter\""),
     }},
     rows_of<&C::fluid, &C::Fluid::pump>("fluid.pump", {
       number("from", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::from>(), duration, not_negative, Need::never, "start of the stage"),
       number("to", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::to>(), duration, positive, Need::never, "end of the stage", "run.end_time"),
       number("rate", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::rate>(), rate, not_negative, Need::always, "injection rate per metre of thickness"),
     }),
+    {"well", {
+      number("height", slot<&C::well, &C::Well::height>(), length, positive, Need::never, "of the fracture: rates, storage and friction are shared by it, in the quasi-static regime"),
+      number("storage", slot<&C::well, &C::Well::storage>(), storage, not_negative, Need::never, "volume of the well times compressibility"),
+      number("impedance", slot<&C::well, &C::Well::impedance>(), impedance, not_negative, Need::never, "density times sound speed over cross section: bounds the rate at breakdown"),
+      number("impedance_time", slot<&C::well, &C::Well::impedance_time>(), duration, not_negative, Need::never, "for which it acts after breakdown, 2 L/c"),
+      number("perforation_friction", slot<&C::well, &C::Well::perforation_friction>(), friction_of_rate, not_negative, Need::never, "pressure lost per rate squared"),
+      number("tortuosity", slot<&C::well, &C::Well::tortuosity>(), plain, not_negative, Need::never, "pressure lost per root of the rate, in Pa (s/m3)^0.5"),
+      number("breakdown_pressure", slot<&C::well, &C::Well::breakdown_pressure>(), pressure, any, Need::never, "the fracture is shut off from the well until it is reached", "none: open from the start"),
+    }},
+    {"fracture", {
+      number("notch", slot<&C::fracture, &C::Fracture::notch>(), length, not_negative, Need::never, "half-length broken at first, along x, in the quasi-static regime; 0: none"),
+      number("residual_aperture", slot<&C::fracture, &C::Fracture::residual_aperture>(), length, positive, Need::never, "opening of closed faces without effective stress"),
+      number("closure_stress", slot<&C::fracture, &C::Fracture::closure_stress>(), pressure, positive, Need::never, "effective stress that closes it to a tenth"),
+    }},
     {"run", {
+      choice("regime", slot<&C::run, &C::Run::regime>(), {"auto", "dynamic", "quasi_static"}, "milliseconds by explicit steps, field time by implicit ones, or chosen by the numbers"),
       number("end_time", slot<&C::run, &C::Run::end_time>(), duration, positive, Need::always, "simulated time at the end"),
       number("time_step", slot<&C::run, &C::Run::time_step>(), duration, positive, Need::never, "\"auto\": the stable one times safety", {}, "auto"),
       text("fast_forward", slot<&C::run, &C::Run::fast_forward>(), "true: the elastic ramp before the first edge nears its strength by static solves, where that holds"),
@@ -280,7 +309,7 @@ bool is_needed(const KeySpec& key, const Case& scene) {
     case Need::without_mesh_file:
       return scene.mesh.file.empty();
     case Need::with_pump:
-      return scene.mesh.file.empty() && !scene.fluid.pump.empty();
+      return scene.mesh.file.empty() && !scene.fluid.pump.empty() && scene.fracture.notch <= 0.0;
   }
   return false;
 }

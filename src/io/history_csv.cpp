@@ -20,4 +20,22 @@ std::string history_line(const HistoryRow& row) {
                      row.energy_viscous, row.energy_fluid, row.work_external, row.energy_residual);
 }
 
+std::string field_time_header() {
+  return "time_s,time_step_s,pressure_Pa,rate_m3_s,perforation_rate_m2_s,fracture_"
+         "pressure_Pa,"
+         "least_pressure_Pa,injected_m2,well_stored_m2,fracture_volume_m2,leaked_m2,mass_defect_m2,broken_"
+         "length_m,"
+         "damaged_length_m,half_length_m,opening_m,mean_opening_m,contact_fraction,closure_stress_Pa,energy_"
+         "fracture_J_m,iterations\n";
+}
+
+std::string field_time_line(const FieldTimeRow& row) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.time,
+                     row.time_step, row.pressure, row.rate, row.perforation_rate, row.fracture_pressure,
+                     row.least_pressure, row.injected, row.well_stored, row.fracture_volume, row.leaked,
+                     row.mass_defect, row.broken_length, row.damaged_length, row.half_length, row.opening,
+                     row.mean_opening, row.contact_fraction, row.closure_stress, row.energy_fracture,
+                     row.iterations);
+}
+
 }  // namespace crackle

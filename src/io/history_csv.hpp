@@ -11,5 +11,8 @@ namespace crackle {
 std::string history_header();
 /// A row, with its line end; numbers in the shortest form that reads back to the same value.
 std::string history_line(const HistoryRow& row);
+/// The same of a run in field time.
+std::string field_time_header();
+std::string field_time_line(const FieldTimeRow& row);
 
 }  // namespace crackle

@@ -101,7 +101,7 @@ void RunFolder::open_tables() {
 }
 
 void RunFolder::write_headers() {
-  history_->append(history_header());
+  history_->append(field_time_ ? field_time_header() : history_header());
   events_->append(events_header());
 }
 
@@ -115,6 +115,11 @@ void RunFolder::write_resolved(const Case& scene) {
 void RunFolder::append_history(const HistoryRow& row) {
   start();
   history_->append(history_line(row));
+}
+
+void RunFolder::append_field_time(const FieldTimeRow& row) {
+  start();
+  history_->append(field_time_line(row));
 }
 
 void RunFolder::append_event(const SeismicEvent& event) {

@@ -14,6 +14,7 @@ std::string summary_json(const RunSummary& summary) {
   json.add("extent_x_m", summary.extent_x);
   json.add("extent_y_m", summary.extent_y);
   json.add("energy_residual_max", summary.energy_residual_max);
+  json.add("mass_residual_max", summary.mass_residual_max);
   json.add("triangles", summary.triangles);
   json.add("steps", summary.steps);
   json.add("wall_s", summary.wall);

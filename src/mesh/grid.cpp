@@ -10,7 +10,8 @@
 
 namespace crackle {
 
-std::vector<double> graded_line(double from, double fine_end, double to, double step, double ratio) {
+std::vector<double> graded_line(double from, double fine_end, double to, const Grading& grading) {
+  const double step = grading.step, ratio = grading.ratio;
   if (!(step > 0.0) || !(ratio >= 1.0) || !(fine_end >= from) || !(to >= fine_end))
     throw MeshError("graded line: needs step > 0, ratio >= 1 and from <= fine_end <= to");
   const auto fine = static_cast<int>(std::round((fine_end - from) / step));
@@ -18,7 +19,8 @@ std::vector<double> graded_line(double from, double fine_end, double to, double 
   for (int i = 0; i <= fine; ++i) line.push_back(from + (fine_end - from) * i / std::max(fine, 1));
   std::vector<double> steps;
   double reach = 0.0;
-  for (double s = step * ratio; reach < (to - fine_end) * (1.0 - 1e-12); s *= ratio) {
+  for (double s = std::min(step * ratio, grading.largest); reach < (to - fine_end) * (1.0 - 1e-12);
+       s = std::min(s * ratio, grading.largest)) {
     steps.push_back(s);
     reach += s;
   }

@@ -88,6 +88,11 @@ struct Case {
     double friction_angle = 0.0;         ///< internal friction angle [rad]
     double fracture_energy_mode1 = 0.0;  ///< [J/m2]
     double fracture_energy_mode2 = 0.0;  ///< [J/m2]
+    double pore_pressure = 0.0;          ///< of the formation [Pa]; fluid pressures are on the same footing
+    double permeability = 0.0;           ///< [m2]
+    double porosity = 0.0;               ///< [-]
+    double pore_compressibility = 0.0;   ///< of pores and what fills them [1/Pa]
+    double pore_viscosity = 0.0;         ///< of the fluid in the pores [Pa s]
     // Bedded rock (transversely isotropic): the moduli above are those along the bedding.
     std::optional<double> young_modulus_normal = {};  ///< across the bedding [Pa]; none: not bedded
     std::optional<double> poisson_ratio_normal = {};  ///< strain along it under stress across it [-]
@@ -127,18 +132,41 @@ struct Case {
     double rate = 0.0;  ///< injection rate per metre of thickness [m2/s]
   };
   struct Fluid {
-    double bulk_modulus = 2.2e9;    ///< [Pa]
-    double density = 1000.0;        ///< at initial pressure [kg/m3]
-    double initial_pressure = 0.0;  ///< [Pa]
-    std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken"
+    double bulk_modulus = 2.2e9;                ///< [Pa]
+    double density = 1000.0;                    ///< at initial pressure [kg/m3]
+    double initial_pressure = 0.0;              ///< [Pa]
+    std::string wets = "broken";                ///< which cohesive elements the fluid enters: "broken"
+    double viscosity = 0.0;                     ///< in the quasi-static regime [Pa s]
+    std::optional<double> cavitation_pressure;  ///< [Pa]
+    std::string leak_off = "none";              ///< "none", "carter" or "diffusion"
+    double leak_off_coefficient = 0.0;          ///< Carter's [m/s^0.5]
     std::vector<PumpStage> pump;  ///< sorted by time, not overlapping; a stage without end ends with the run
   } fluid;
 
+  /// A well in field time; the fracture is as high as `height`.
+  struct Well {
+    double height = 1.0;                       ///< of the fracture [m]; rates are divided by it
+    double storage = 0.0;                      ///< [m3/Pa]
+    double impedance = 0.0;                    ///< acoustic, ρ c / A [Pa s/m3]
+    double impedance_time = 0.0;               ///< after breakdown, 2 L / c [s]
+    double perforation_friction = 0.0;         ///< [Pa s2/m6]
+    double tortuosity = 0.0;                   ///< [Pa (s/m3)^0.5]
+    std::optional<double> breakdown_pressure;  ///< the fracture is shut off below it [Pa]
+  } well;
+
+  /// The fracture that a quasi-static run starts from, along x from the origin.
+  struct Fracture {
+    double notch = 0.0;               ///< broken half-length at first [m]; 0: none
+    double residual_aperture = 1e-4;  ///< of mated faces without effective stress [m]
+    double closure_stress = 30e6;     ///< that leaves a tenth of it [Pa]
+  } fracture;
+
   struct Run {
-    double end_time = 0.0;     ///< [s]
-    double time_step = 0.0;    ///< [s]; 0: "auto"
-    bool fast_forward = true;  ///< the elastic ramp by static solves, where it holds
-    double safety = 0.8;       ///< fraction of the stable time step taken by "auto" [-]
+    std::string regime = "auto";  ///< "auto", "dynamic" or "quasi_static"
+    double end_time = 0.0;        ///< [s]
+    double time_step = 0.0;       ///< [s]; 0: "auto"
+    bool fast_forward = true;     ///< the elastic ramp by static solves, where it holds
+    double safety = 0.8;          ///< fraction of the stable time step taken by "auto" [-]
   } run;
 
   /// Where the local coordinates lie on Earth, for the seismic catalog. x points east. With depth_axis

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,26 @@ struct HistoryRow {
          energy_friction = 0.0, energy_viscous = 0.0, energy_fluid = 0.0;  ///< [J/m]
   double work_external = 0.0;                                              ///< [J/m]
   double energy_residual = 0.0;                                            ///< [-]
+};
+
+/// One row of history.csv of a run in field time. Volumes and rates of the plane are per metre of height
+/// and of both wings together.
+struct FieldTimeRow {
+  double time = 0.0;                                     ///< [s]
+  double time_step = 0.0;                                ///< [s]
+  double pressure = 0.0;                                 ///< in the well [Pa]
+  double rate = 0.0;                                     ///< pumped, of the whole height [m3/s]
+  double perforation_rate = 0.0;                         ///< into the fracture [m2/s]
+  double fracture_pressure = 0.0, least_pressure = 0.0;  ///< at the well, anywhere [Pa]
+  double injected = 0.0, well_stored = 0.0, fracture_volume = 0.0, leaked = 0.0;  ///< [m2]
+  double mass_defect = 0.0;                          ///< of the balance of these [m2]
+  double broken_length = 0.0, damaged_length = 0.0;  ///< of one wing [m]
+  double half_length = 0.0;                          ///< the mean of these [m]
+  double opening = 0.0, mean_opening = 0.0;          ///< at the well, of the whole [m]
+  double contact_fraction = 0.0;                     ///< of the faces [-]
+  double closure_stress = 0.0;                       ///< total compression across the fracture [Pa]
+  double energy_fracture = 0.0;                      ///< [J/m]
+  int iterations = 0;                                ///< of Newton
 };
 
 /// A named value per triangle or per fracture segment; components = 1, 2 or 3 (xx, yy, xy).
@@ -63,7 +84,9 @@ struct RunSummary {
   double broken_length = 0.0;         ///< [m]
   double extent_x = 0.0;              ///< of the broken elements [m]
   double extent_y = 0.0;              ///< [m]
-  double energy_residual_max = 0.0;   ///< [-]
+  double energy_residual_max = 0.0;   ///< [-]; NaN in field time, which keeps a ledger of mass
+  double mass_residual_max =
+      std::numeric_limits<double>::quiet_NaN();  ///< over the injected [-]; in field time
   std::int64_t triangles = 0;
   std::int64_t steps = 0;
   double wall = 0.0;  ///< [s]
@@ -133,6 +156,9 @@ class RunFolder {
   void write_resolved(const Case& scene);
   /// Appends to history.csv.
   void append_history(const HistoryRow& row);
+  /// The run is one in field time: before anything of it is written.
+  void set_field_time() { field_time_ = true; }
+  void append_field_time(const FieldTimeRow& row);
   /// Appends to events.csv.
   void append_event(const SeismicEvent& event);
   /// Writes fields/fields_NNNNNN.vtu and fractures/fractures_NNNNNN.vtu, counted from 0, and renews
@@ -171,6 +197,7 @@ class RunFolder {
 
   std::string path_;
   Use use_;
+  bool field_time_ = false;
   std::unique_ptr<AppendedFile> history_;
   std::unique_ptr<AppendedFile> events_;
   std::unique_ptr<AppendedFile> log_;

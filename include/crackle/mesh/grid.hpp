@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -8,9 +9,16 @@
 
 namespace crackle {
 
-/// Coordinates [m] from `from` on: spacing `step` up to `fine_end`, from there growing by `ratio` a
-/// step to `to`. The last steps are stretched a little so that they end there. @throws MeshError
-std::vector<double> graded_line(double from, double fine_end, double to, double step, double ratio);
+/// Spacing of a line: `step` at first, growing by `ratio` a step, to `largest` at most [m].
+struct Grading {
+  double step = 0.0;
+  double ratio = 1.0;
+  double largest = std::numeric_limits<double>::infinity();
+};
+
+/// Coordinates [m] from `from` on: even up to `fine_end`, from there growing to `to`. The growing steps
+/// are changed a little so that they end there. @throws MeshError
+std::vector<double> graded_line(double from, double fine_end, double to, const Grading& grading);
 
 /// A rectangle between lines at the given coordinates [m], increasing, each cell cut into two triangles
 /// along alternating diagonals: for a fracture whose straight path is known. @throws MeshError

@@ -8,7 +8,8 @@
 // A cell is an edge of the path. The fracture grows by an edge where the opening at its tip passes the
 // elastic one; this is iterated within the step. Tension positive; volumes at reference density, per
 // metre of thickness.
-// Limits: elastic rock, no stress from fluid that leaks off, no inertia.
+// Limits: faces open but do not slip (a straight path along a principal stress); elastic rock, no stress from
+// fluid that leaks off, no inertia.
 #pragma once
 
 #include <functional>
@@ -56,7 +57,6 @@ struct QuasiStaticScene {
   Held held;                   ///< components held at zero displacement, per vertex
   Sym2 stress;                 ///< in situ, effective [Pa]
   double pore_pressure = 0.0;  ///< in the dry rock; also that of the fluid at first [Pa]
-  bool slip = false;           ///< false: faces only open
   std::shared_ptr<const CohesiveLaw> law;
   double tensile_strength = 0.0;  ///< [Pa]
   double fracture_energy = 0.0;   ///< mode I [J/m2]
@@ -117,8 +117,10 @@ class QuasiStatic {
 
   std::vector<FractureCell> cells() const;
   const FracturePath& path() const;
-  /// Displacement of all vertices [m] (condensation.hpp).
-  std::vector<Vec2> displacement() const;
+  /// Displacement [m] of every corner of every triangle, three a triangle, with the jumps.
+  std::vector<Vec2> corner_displacement() const;
+  /// Effective stress [Pa] of every triangle at such a displacement.
+  std::vector<Sym2> stress(const std::vector<Vec2>& corner_displacement) const;
   /// Strength that the mesh resolves [Pa], the least of the path so far.
   double strength() const;
   int rejected_steps() const;

@@ -44,7 +44,7 @@ class QuasiStatic::Solver {
   explicit Solver(QuasiStaticScene scene)
       : scene_((check(scene), std::move(scene))),
         bulk_(*scene_.mesh, scene_.stiffness, 1.0, scene_.stress, {}),
-        path_(scene_.mesh, scene_.held, scene_.slip),
+        path_(scene_.mesh, scene_.held, false),
         rock_(scene_.mesh, bulk_, scene_.held),
         equations_{scene_, path_, rock_, laws_, matrix_} {
     if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
@@ -104,7 +104,36 @@ class QuasiStatic::Solver {
     for (const InterfaceLaw& law : laws_) least = std::min(least, law.strength());
     return least;
   }
-  std::vector<Vec2> displacement() const { return rock_.displacement(state_.jumps); }
+  std::vector<Vec2> corner_displacement() const {
+    const std::vector<Vec2> u = rock_.displacement(state_.jumps);
+    std::vector<Vec2> corners;
+    for (const auto& triangle : scene_.mesh->triangles) {
+      for (const Index v : triangle) corners.push_back(u[at(v)]);
+    }
+    for (std::size_t k = 0; k < state_.jumps.size(); ++k) {
+      const JumpUnknown& unknown = path_.unknowns()[k];
+      for (const Index t : unknown.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          if (scene_.mesh->triangles[at(t)][i] == unknown.vertex)
+            corners[3 * at(t) + i] += state_.jumps[k] * unknown.direction;
+        }
+      }
+    }
+    return corners;
+  }
+  std::vector<Sym2> stress(const std::vector<Vec2>& corners) const {
+    std::vector<Sym2> stress;
+    for (Index t = 0; t < scene_.mesh->triangle_count(); ++t) {
+      const auto g = bulk_.shape_gradients(t);
+      Sym2 strain;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2 u = corners[3 * at(t) + i];
+        strain = strain + Sym2{u.x * g[i].x, u.y * g[i].y, 0.5 * (u.x * g[i].y + u.y * g[i].x)};
+      }
+      stress.push_back(scene_.stress + scene_.stiffness.stress(strain));
+    }
+    return stress;
+  }
 
  private:
   // Adds the next edge of a wing behind `parent`, intact and dry.
@@ -365,7 +394,10 @@ void QuasiStatic::run(double end, const std::function<void(const QuasiStaticRow&
 }
 std::vector<FractureCell> QuasiStatic::cells() const { return solver_->cells(); }
 const FracturePath& QuasiStatic::path() const { return solver_->path(); }
-std::vector<Vec2> QuasiStatic::displacement() const { return solver_->displacement(); }
+std::vector<Vec2> QuasiStatic::corner_displacement() const { return solver_->corner_displacement(); }
+std::vector<Sym2> QuasiStatic::stress(const std::vector<Vec2>& corner_displacement) const {
+  return solver_->stress(corner_displacement);
+}
 double QuasiStatic::strength() const { return solver_->strength(); }
 int QuasiStatic::rejected_steps() const { return solver_->rejected(); }
 int QuasiStatic::newton_iterations() const { return solver_->iterations(); }

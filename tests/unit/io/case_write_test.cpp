@@ -28,7 +28,8 @@ TEST(ResolvedToml, ReadsBackToTheSameText) {
 
 TEST(ResolvedToml, HoldsEveryKeyOnce) {
   const std::string text = resolved_toml(
-      read_case(good_path, {"damping.viscosity=3", "output.fields=['a']", "rock.young_modulus_normal=30e9"}));
+      read_case(good_path, {"damping.viscosity=3", "output.fields=['a']", "rock.young_modulus_normal=30e9",
+                            "fluid.cavitation_pressure=0", "well.breakdown_pressure=70e6"}));
   // absent: a list of included files, the damping that was not chosen, a mesh file
   const std::set<std::string> absent = {"include", "ratio", "file"};
   for (const CaseKey& key : case_keys()) {

@@ -190,6 +190,7 @@ TEST(RunFolder, SummaryIsJson) {
   "extent_x_m": 0,
   "extent_y_m": 0,
   "energy_residual_max": null,
+  "mass_residual_max": null,
   "triangles": 190000,
   "steps": 0,
   "wall_s": 0,

@@ -192,5 +192,50 @@ TEST(Kgd, CarterLeakOff) {
   EXPECT_LT(strong.found.defect, 1e-8);
 }
 
+// Both wings on the whole domain against one wing on its half.
+QuasiStaticScene both_wings(double step, double path, double toughness) {
+  QuasiStaticScene s = kgd(step, path, toughness, 1e-6, 9.44e6);
+  const std::vector<double> half = graded_line(0.0, path, 20.0 * path, {step, 1.2});
+  const std::vector<double> up = graded_line(0.0, 6.0 * step, 20.0 * path, {step, 1.15});
+  const auto mirrored = [](const std::vector<double>& line) {
+    std::vector<double> both;
+    for (std::size_t i = line.size(); i-- > 1;) both.push_back(-line[i]);
+    both.insert(both.end(), line.begin(), line.end());
+    return both;
+  };
+  auto mesh = std::make_shared<const Mesh>(grid_rectangle(mirrored(half), mirrored(up)));
+  s.held.assign(mesh->vertices.size(), 0);
+  Index start = -1;
+  for (std::size_t v = 0; v < s.held.size(); ++v) {
+    const Vec2 at = mesh->vertices[v];
+    if (at.y == 0.0 && std::abs(at.x) > 19.9 * path) s.held[v] = at.x > 0.0 ? 2 : 3;
+    if (at.y == 0.0 && at.x == 0.0) start = static_cast<Index>(v);
+  }
+  const std::size_t open = s.wings.front().open;
+  s.wings.clear();
+  for (const double side : {1.0, -1.0})
+    s.wings.push_back({start, edges_along(*mesh, {0.0, 0.0}, {side * path, 0.0}), open});
+  s.pump = Pump({{0.0, 1e9, rate}});
+  s.mesh = std::move(mesh);
+  return s;
+}
+
+TEST(Kgd, TwoWings) {
+  QuasiStatic half(kgd(0.25, 8.0, 1e6, 1e-6, 9.44e6)), whole(both_wings(0.25, 8.0, 1e6));
+  QuasiStaticRow one, two;
+  half.run(15.0, [&](const QuasiStaticRow& row) { one = row; });
+  whole.run(15.0, [&](const QuasiStaticRow& row) { two = row; });
+  const double net = one.fracture_pressure - 20e6;
+  std::printf(
+      "two wings on the whole domain over one on half: net pressure %+.2e, opening %+.2e, length %.2f and "
+      "%.2f m\n",
+      (two.fracture_pressure - one.fracture_pressure) / net, two.opening / one.opening - 1.0,
+      0.5 * two.damaged_length, one.damaged_length);
+  EXPECT_NEAR((two.fracture_pressure - one.fracture_pressure) / net, 0.0, 1e-6);
+  EXPECT_NEAR(two.opening / one.opening, 1.0, 1e-6);
+  EXPECT_NEAR(0.5 * two.damaged_length, one.damaged_length, 0.26);
+  EXPECT_LT(std::abs(two.mass_defect), 1e-8 * two.injected);
+}
+
 }  // namespace
 }  // namespace crackle
