@@ -57,7 +57,8 @@ void coarse_edges(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
 }
 
 void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
-  if (scene.triangle_stiffness) return;  // made up for
+  if (scene.insertion.on_demand) return;  // only where it is about to break
+  if (scene.triangle_stiffness) return;   // made up for
   const double modulus = plane_strain_modulus(scene.stiffness);
   const ModulusRatio ratio = artificial_modulus_ratio(modulus, scene.stiffness.c66, scene.cohesive.penalty,
                                                       mesh.sum_length2_over_area);

@@ -23,7 +23,7 @@ namespace crackle {
 struct InsertionPolicy {
   bool on_demand = false;
   double threshold = 0.7;  ///< of the strength (Cohesive::utilisation) at which an edge gets its element
-  double step = 0.6;       ///< time step over the tied rock's, which leaves room for the elements' penalty
+  double step = 0.75;      ///< time step over the tied rock's, which leaves room for the elements' penalty
 };
 
 /// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive.
