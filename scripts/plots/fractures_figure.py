@@ -13,6 +13,7 @@ from run_data import MODES, Fractures, Frame
 # light enough for black and red lines to stand out on its upper end
 SPEED_COLORS = LinearSegmentedColormap.from_list("speed", plt.get_cmap("YlGnBu")(np.linspace(0.0, 0.68, 256)))
 YIELDING_COLOR = "#6d7680"
+JOINT_COLOR = "#8d5524"
 
 
 def draw(run, path):
@@ -49,7 +50,7 @@ def draw(run, path):
     bar = figure.colorbar(image, extend="max",
                           cax=figure.add_axes([right + 0.2 / width, last.y0, 0.16 / width, first.y1 - last.y0]))
     bar.set_label(f"velocity magnitude [{unit}]")
-    add_legend(figure)
+    add_legend(figure, any(fractures.joint.any() for _, _, fractures in chosen))
     look.save(figure, path)
 
 
@@ -118,8 +119,11 @@ def draw_panel(axes, panel, fractures, norm, window):
         spine.set_visible(True)
     image = axes.tripcolor(points[:, 0], points[:, 1], triangles, speed, shading="gouraud", cmap=SPEED_COLORS, norm=norm,
                            rasterized=True)
-    yielding = fractures.segments[~fractures.broken] * 1e3
+    yielding = fractures.segments[~fractures.broken & ~fractures.joint] * 1e3
     axes.add_collection(LineCollection(yielding, colors=YIELDING_COLOR, linewidths=0.6))
+    for wet, width in ((False, 0.9), (True, 1.8)):
+        joints = fractures.segments[fractures.joint & (fractures.wet == wet)] * 1e3
+        axes.add_collection(LineCollection(joints, colors=JOINT_COLOR, linewidths=width, capstyle="round"))
     broken = fractures.segments[fractures.broken] * 1e3
     axes.add_collection(LineCollection(broken, colors="white", linewidths=3.0, alpha=0.8, capstyle="round"))
     for mode in MODES:
@@ -128,8 +132,11 @@ def draw_panel(axes, panel, fractures, norm, window):
     return image
 
 
-def add_legend(figure):
+def add_legend(figure, with_joints):
     handles = [Line2D([], [], color=look.MODE_COLORS[mode], linewidth=1.8, label=f"broken, {name}")
                for mode, name in MODES.items()]
     handles.append(Line2D([], [], color=YIELDING_COLOR, linewidth=0.8, label="yielding"))
-    figure.legend(handles=handles, loc="lower center", ncol=4)
+    if with_joints:
+        handles += [Line2D([], [], color=JOINT_COLOR, linewidth=0.9, label="joint"),
+                    Line2D([], [], color=JOINT_COLOR, linewidth=1.8, label="wet joint")]
+    figure.legend(handles=handles, loc="lower center", ncol=len(handles))

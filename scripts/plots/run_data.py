@@ -72,12 +72,15 @@ class Frame:
 
 
 class Fractures:
-    """The lines of a frame that are fractures: segments (n, 2, 2), broken (n), mode (n)."""
+    """The lines of a frame that are fractures: segments (n, 2, 2), broken (n), mode (n).
+
+    joint (n): joints that never had cohesion, which are not counted as broken; wet (n): with fluid in them."""
 
     def __init__(self, path=None):
         self.segments = np.zeros((0, 2, 2))
         self.broken = np.zeros(0, dtype=bool)
         self.mode = np.zeros(0, dtype=int)
+        self.joint = self.wet = np.zeros(0, dtype=bool)
         if path is None:
             return
         frame = Frame(path)
@@ -90,6 +93,9 @@ class Fractures:
         zero = np.zeros(len(frame.cells))
         self.broken = frame.cell_fields.get("broken", zero)[real] > 0.5
         self.mode = frame.cell_fields.get("mode", zero)[real].astype(int)
+        self.joint = self.broken & (self.mode == 0)
+        self.broken &= ~self.joint
+        self.wet = frame.cell_fields.get("pressure_Pa", zero)[real] != 0.0
 
 
 class Run:

@@ -112,7 +112,14 @@ StableStep stable_step_of(const Scene& scene) {
   set_mass(state, scene.density);
   if (!scene.law) return stable_step(state, bulk, nullptr);
   if (split) insert_all(state);
-  const Cohesive cohesive(scene.law, scene.cohesive);
+  std::vector<CohesiveMaterial> materials{scene.cohesive};
+  materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
+  for (const JointEdge& joint : scene.joints) {
+    if (!split) break;
+    const Index element = state.cohesive.of_edge[static_cast<std::size_t>(joint.edge)];
+    state.cohesive.material[static_cast<std::size_t>(element)] = joint.material;
+  }
+  const Cohesive cohesive(scene.law, std::move(materials));
   StableStep stable = stable_step(state, bulk, &cohesive);
   if (!split) stable.limit *= scene.insertion.step;
   return stable;

@@ -71,7 +71,10 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     slip.values.push_back(h.point[2].slip);
     damage.values.push_back(d);
     const double share = h.fracture_energy > 0.0 ? h.sliding_work / h.fracture_energy : 0.0;
-    mode.values.push_back(is_broken ? static_cast<double>(failure_mode(share)) : 0.0);
+    // a joint that never had cohesion is broken in no mode
+    const bool unbonded =
+        h.fracture_energy == 0.0 && state.mesh->edges[at(state.cohesive.edge[i])].joint >= 0;
+    mode.values.push_back(is_broken && !unbonded ? static_cast<double>(failure_mode(share)) : 0.0);
     pressure.values.push_back(cavity >= 0 ? state.fluid.cavities[at(cavity)].pressure : 0.0);
     broken.values.push_back(is_broken ? 1.0 : 0.0);
   }

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
+#include <cmath>
+#include <cstdint>
 
+#include "crackle/core/errors.hpp"
 #include "crackle/io/joints_csv.hpp"
 
 namespace crackle {
@@ -48,6 +50,25 @@ JointSet random_set(const Case::JointSet& set, double wellbore_radius) {
   return random;
 }
 
+/// Of a set of the mesh. In a mesh that was made from the case they are numbered as add_joints() has them, in
+/// one from a file they go by name.
+const Case::JointProperties& properties_of(const Case& scene, const Mesh& mesh, std::size_t set) {
+  if (scene.mesh.file.empty()) {
+    if (set < scene.joints.size()) return scene.joints[set];
+    return scene.joint_sets[set - scene.joints.size()];
+  }
+  for (const std::string& name : {mesh.joint_sets[set], std::string()}) {
+    for (const Case::JointSet& row : scene.joint_sets) {
+      if (row.name == name) return row;
+    }
+  }
+  throw CaseError(
+      scene.file, 0, 0,
+      fmt::format("{} has joints of the set \"{}\": say how they bear in [[joint_sets]] with name = "
+                  "\"{}\", or without a name for all sets",
+                  scene.mesh.file, mesh.joint_sets[set], mesh.joint_sets[set]));
+}
+
 }  // namespace
 
 void add_joints(const Case& scene, MeshRecipe& recipe) {
@@ -64,6 +85,34 @@ void add_joints(const Case& scene, MeshRecipe& recipe) {
                          : read_joints_csv(set.file, number);
     recipe.joints.insert(recipe.joints.end(), joints.begin(), joints.end());
   }
+}
+
+void set_joints(const Case& scene, Scene& solver_scene) {
+  const Mesh& mesh = *solver_scene.mesh;
+  std::vector<bool> bonded;
+  for (std::size_t set = 0; set < mesh.joint_sets.size(); ++set) {
+    const Case::JointProperties& joint = properties_of(scene, mesh, set);
+    bonded.push_back(joint.law == "bonded");
+    CohesiveMaterial material = solver_scene.cohesive;
+    material.penalty = *joint.normal_penalty;
+    material.tangential_penalty = *joint.tangential_penalty;
+    material.tan_residual = std::tan(*joint.residual_friction_angle);
+    if (bonded.back()) {
+      material.tensile_strength = *joint.tensile_strength;
+      material.cohesion = *joint.cohesion;
+      material.tan_friction = std::tan(*joint.friction_angle);
+      material.fracture_energy_mode1 = *joint.fracture_energy_mode1;
+      material.fracture_energy_mode2 = *joint.fracture_energy_mode2;
+    }
+    solver_scene.joint_materials.push_back(material);
+  }
+  for (Index e = 0; e < mesh.edge_count(); ++e) {
+    const Edge& edge = mesh.edges[static_cast<std::size_t>(e)];
+    if (edge.joint < 0 || edge.kind != EdgeKind::interior) continue;
+    const auto set = static_cast<std::size_t>(mesh.set_of_joint[static_cast<std::size_t>(edge.joint)]);
+    solver_scene.joints.push_back({e, static_cast<std::uint16_t>(set + 1), bonded[set]});
+  }
+  solver_scene.joints_edge_by_edge = scene.fluid.joints == "edge";
 }
 
 std::string network_text(const NetworkReport& report) {

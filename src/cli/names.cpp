@@ -29,6 +29,15 @@ std::vector<NameGroup> name_groups() {
        {{"broken",
          "one pressure in the wellbore and in all broken elements connected to it, no viscosity"}}});
   groups.push_back(
+      {"Fluid in joints",
+       "fluid.joints",
+       {{"whole", "a joint without cohesion that is reached is wet at once (AbuAisha et al. 2016)"},
+        {"edge", "edge by edge, each when its faces are apart"}}});
+  groups.push_back({"Joints",
+                    "joints.law",
+                    {{"frictional", "closed, no cohesion or tensile strength: held by friction alone"},
+                     {"bonded", "breaks like rock, by strengths and energies of its own"}}});
+  groups.push_back(
       {"Outer boundaries",
        "boundary.outer",
        {{"fixed", "held in place; reflects waves"},

@@ -138,7 +138,6 @@ class Run {
     say(fmt::format("mesh: {} triangles, {} vertices ({:.1f} s)", mesh->triangle_count(),
                     mesh->vertex_count(), seconds_since(start_)));
     if (network.joints > 0) say(network_text(network));
-    if (network.joints > 0) throw CaseError(scene_.file, 0, 0, "joints can be meshed but not simulated yet");
     require_memory(scene_, mesh->triangle_count());  // known only now for a mesh from a file
     const Scene solver_scene = make_scene(scene_, mesh);
     if (const std::string error = scene_error(solver_scene); !error.empty())

@@ -83,6 +83,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     s.pump = Pump(std::move(stages));
   }
   s.fast_forward = scene.run.fast_forward;
+  if (s.mesh) set_joints(scene, s);
   s.thickness = scene.seismic.thickness;
   s.slip_rate = scene.seismic.slip_rate;
   return s;

@@ -360,6 +360,25 @@ void Cohesive::cut(State& state, Index element) const {
   c.status[at(element)] = CohesiveStatus::broken;
 }
 
+bool Cohesive::unbond(State& state, Index element) const {
+  CohesiveElements& c = state.cohesive;
+  if (c.history_of[at(element)] < 0) start_history(state, element);
+  CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
+  const CohesiveMaterial m = material(state, element);
+  const double stiffness = m.tangential_penalty * c.inverse_length[at(element)];
+  bool gives = false;
+  for (CohesivePoint& p : h.point) {
+    const double shear = p.shear + p.friction;
+    const double held = std::max(-p.normal, 0.0) * m.tan_residual;
+    gives = gives || p.normal > 0.0 || std::abs(shear) > (1.0 + 1e-12) * held;
+    p.damage = 1.0;
+    p.plastic_slip = p.slip - shear / stiffness;
+  }
+  h.break_time = state.time;
+  c.status[at(element)] = CohesiveStatus::broken;
+  return gives;
+}
+
 double Cohesive::stored_energy(const State& state) const {
   const CohesiveElements& c = state.cohesive;
   const double curvature = law_->curvature();

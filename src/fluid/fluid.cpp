@@ -112,6 +112,29 @@ void Fluid::refill(State& state, double pressure) {
   }
 }
 
+// A closed edge of a joint where the fluid enters joints as they open.
+bool Fluid::waits(const State& state, Index edge) const {
+  if (!joints_as_they_open_ || state.mesh->edges[at(edge)].joint < 0) return false;
+  const CohesiveElements& c = state.cohesive;
+  const Index element = c.of_edge[at(edge)];
+  if (c.status[at(element)] == CohesiveStatus::released) return false;
+  return c.histories[at(c.history_of[at(element)])].point[2].opening <= 0.0;
+}
+
+std::vector<Index> Fluid::opened_joints(const State& state) const {
+  std::vector<Index> opened;
+  for (std::size_t e = 0; e < state.mesh->edges.size(); ++e) {
+    const Edge& edge = state.mesh->edges[e];
+    const Index element = state.cohesive.of_edge[e];
+    if (edge.joint < 0 || element < 0 || state.fluid.cavity_of_edge[e] >= 0) continue;
+    if (state.cohesive.status[at(element)] < CohesiveStatus::broken) continue;
+    const bool reached = state.fluid.cavity_of_vertex[at(edge.vertex[0])] >= 0 ||
+                         state.fluid.cavity_of_vertex[at(edge.vertex[1])] >= 0;
+    if (reached && !waits(state, static_cast<Index>(e))) opened.push_back(element);
+  }
+  return opened;
+}
+
 void Fluid::connect(State& state, std::span<const Index> broken) {
   FluidState& f = state.fluid;
   const Mesh& mesh = *state.mesh;
@@ -119,7 +142,7 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
   for (const Index element : broken) {
     const Index e = state.cohesive.edge[at(element)];
     const auto& v = mesh.edges[at(e)].vertex;
-    if (f.cavity_of_edge[at(e)] < 0 &&
+    if (f.cavity_of_edge[at(e)] < 0 && !waits(state, e) &&
         (f.cavity_of_vertex[at(v[0])] >= 0 || f.cavity_of_vertex[at(v[1])] >= 0)) {
       reached.push_back(e);
     }
@@ -154,7 +177,7 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
           const Index next = edges_of_vertex_[at(k)];
           const Index element = state.cohesive.of_edge[at(next)];
           if (f.cavity_of_edge[at(next)] < 0 && element >= 0 &&
-              state.cohesive.status[at(element)] >= CohesiveStatus::broken) {
+              state.cohesive.status[at(element)] >= CohesiveStatus::broken && !waits(state, next)) {
             reached.push_back(next);
           }
         }

@@ -231,6 +231,7 @@ std::vector<TableSpec> make_tables() {
       number("cavitation_pressure", slot<&C::fluid, &C::Fluid::cavitation_pressure>(), pressure, any, Need::never, "below it the fluid boils, in the quasi-static regime", "0, or 5 MPa below rock.pore_pressure where that is small"),
       choice("leak_off", slot<&C::fluid, &C::Fluid::leak_off>(), {"none", "carter", "diffusion"}, "into the rock, in the quasi-static regime"),
       number("leak_off_coefficient", slot<&C::fluid, &C::Fluid::leak_off_coefficient>(), plain, not_negative, Need::never, "C_L in m/s^0.5, for fluid.leak_off = \"carter\""),
+      choice("joints", slot<&C::fluid, &C::Fluid::joints>(), {"whole", "edge"}, "a joint without cohesion that is reached is entered as a whole at once, or edge by edge as it opens"),
     }},
     rows_of<&C::fluid, &C::Fluid::pump>("fluid.pump", {
       number("from", slot<&C::fluid, &C::Fluid::pump, &C::PumpStage::from>(), duration, not_negative, Need::never, "start of the stage"),

@@ -49,6 +49,12 @@ CRACKLE_KERNEL void move(Vec2* displacement, Vec2* velocity, const double* inver
   }
 }
 
+std::vector<CohesiveMaterial> materials_of(const Scene& scene) {
+  std::vector<CohesiveMaterial> materials{scene.cohesive};
+  materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
+  return materials;
+}
+
 // Wall of the wellbore and pre-cut cracks: where the fluid is at the start.
 std::vector<Index> wetted_edges(const Scene& scene) {
   std::vector<Index> edges;
@@ -94,9 +100,12 @@ Simulation::Simulation(Scene scene)
   set_mass(state_, scene_.density);
   if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
   if (scene_.law) {
-    cohesive_.emplace(scene_.law, scene_.cohesive);
+    cohesive_.emplace(scene_.law, materials_of(scene_));
     if (split) {
       insert_all(state_);
+      for (const JointEdge& joint : scene_.joints) {
+        state_.cohesive.material[at(state_.cohesive.of_edge[at(joint.edge)])] = joint.material;
+      }
       cut_cracks();
     }
   }
@@ -105,6 +114,7 @@ Simulation::Simulation(Scene scene)
   if (!split) corner_force_.resize(state_.node_of_corner.size());
   if (scene_.fluid) {
     fluid_.emplace(state_, *scene_.fluid, scene_.pump);
+    if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
     fluid_->fill(state_, wetted_edges(scene_), scene_.initial_pressure);
   }
   if (!scene_.absorbing_boundary) fix_nodes(state_, EdgeKind::outer);
@@ -138,13 +148,16 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     if (!stressed_.empty() && stressed_[at(t)]) block_stressed_[at(t / block_size)] = 1;
   }
   if (!stressed_.empty()) set_screen();
-  if (scene_.law) cohesive_.emplace(scene_.law, scene_.cohesive);
+  if (scene_.law) cohesive_.emplace(scene_.law, materials_of(scene_));
   if (scene_.contact.normal_penalty > 0.0) {
     contact_.emplace(state_, scene_.contact);
     contact_->rebuild(state_);
   }
   if (!scene_.law || scene_.insertion.on_demand) corner_force_.resize(state_.node_of_corner.size());
-  if (scene_.fluid) fluid_.emplace(state_, *scene_.fluid, scene_.pump);
+  if (scene_.fluid) {
+    fluid_.emplace(state_, *scene_.fluid, scene_.pump);
+    if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
+  }
   if (scene_.absorbing_boundary) boundary_.emplace(std::move(memory.boundary));
 }
 
@@ -259,10 +272,12 @@ void Simulation::settle() {
     const std::vector<double> mobility = state_.inverse_mass;
     fix_nodes(state_, EdgeKind::outer);  // the boundary bears what is left there, be it fixed or absorbing
     if (!scene_.insertion.on_demand) {
-      geostatic_slips_ = static_cast<Index>(cohesive_->balance(state_, forces).size());
+      geostatic_slips_ += static_cast<Index>(cohesive_->balance(state_, forces).size());
     }
+    unbond_joints();
     state_.inverse_mass = mobility;
     cohesive_->add_tractions(state_);
+    wet_joints();
   }
   if (scene_.absorbing_boundary) {
     for (Index t = 0; t < mesh.triangle_count(); ++t) {
@@ -343,6 +358,41 @@ void Simulation::prepare_insertion() {
   std::sort(cracks.begin(), cracks.end());
   insert(cracks);
   cut_cracks();
+  insert_joints();
+}
+
+void Simulation::insert_joints() {
+  for (std::uint16_t material = 1; material <= scene_.joint_materials.size(); ++material) {
+    std::vector<Index> edges;
+    for (const JointEdge& joint : scene_.joints) {
+      if (joint.material == material) edges.push_back(joint.edge);
+    }
+    insert(edges, material);
+  }
+  geostatic_slips_ += rough_insertions_;  // bonded ones beyond their strength
+  rough_insertions_ = 0;
+}
+
+void Simulation::unbond_joints() {
+  for (const JointEdge& joint : scene_.joints) {
+    if (!joint.bonded && cohesive_->unbond(state_, state_.cohesive.of_edge[at(joint.edge)]))
+      ++geostatic_slips_;
+  }
+}
+
+// Joints that the wellbore or a wetted crack touches hold fluid from the start.
+void Simulation::wet_joints() {
+  if (!fluid_ || scene_.joints.empty()) return;
+  std::vector<Index> open;
+  for (const JointEdge& joint : scene_.joints) {
+    if (!joint.bonded) open.push_back(state_.cohesive.of_edge[at(joint.edge)]);
+  }
+  fluid_->connect(state_, open);
+  fluid_->refill(state_, scene_.initial_pressure);
+  const bool wet = std::any_of(scene_.joints.begin(), scene_.joints.end(), [&](const JointEdge& joint) {
+    return state_.fluid.cavity_of_edge[at(joint.edge)] >= 0;
+  });
+  if (wet && scene_.initial_pressure != 0.0) ++geostatic_slips_;
 }
 
 void Simulation::cut_cracks() {
@@ -401,14 +451,14 @@ void Simulation::insert_stressed() {
   insert(edges);
 }
 
-void Simulation::insert(const std::vector<Index>& edges) {
+void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material) {
   if (edges.empty()) return;
   const double floor = 0.1 * scene_.stiffness.c66;
   std::vector<double> penalty;
   for (const Index e : edges) {
     // Where a sliver leaves no room the step gives way instead.
-    penalty.push_back(
-        std::min(scene_.cohesive.penalty, std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
+    penalty.push_back(std::min(cohesive_->materials()[material].penalty,
+                               std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
     for (const Index t : scene_.mesh->edges[at(e)].triangle) block_has_elements_[at(t / block_size)] = 1;
   }
   const Index nodes = state_.node_count();
@@ -423,7 +473,8 @@ void Simulation::insert(const std::vector<Index>& edges) {
     for (; it != loads.end() && it->corner == corner; ++it) sum += it->force;
     return sum;
   };
-  rough_insertions_ += static_cast<Index>(cohesive_->insert(state_, edges, penalty, 0, rock, load).size());
+  rough_insertions_ +=
+      static_cast<Index>(cohesive_->insert(state_, edges, penalty, material, rock, load).size());
   if (state_.node_count() == nodes) return;
   if (fluid_) fluid_->rebuild(state_);
   for (Index i = first; i < state_.cohesive.count(); ++i) {
@@ -515,6 +566,11 @@ void Simulation::advance(double dt, Energies* account) {
     new_events_ = listen(state_, cohesive_->newly_broken(), medium());
     stopwatch_.lap(Stopwatch::events);
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
+    stopwatch_.lap(Stopwatch::fluid);
+  }
+  if (fluid_ && scene_.joints_edge_by_edge) {
+    const std::vector<Index> opened = fluid_->opened_joints(state_);
+    if (!opened.empty()) fluid_->connect(state_, opened);
     stopwatch_.lap(Stopwatch::fluid);
   }
   if (longest_joint_edge_ > 0.0 && state_.time > 0.0) {  // what slid before was the geostatic stage

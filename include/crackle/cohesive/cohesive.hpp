@@ -49,6 +49,10 @@ class Cohesive {
   /// Breaks an element by hand (a pre-cut crack): no cohesion left, no energy booked.
   void cut(State& state, Index element) const;
 
+  /// Breaks an element by hand that stays closed (a joint): it goes on to bear the compression that it bears
+  /// now, and of the shear what friction holds. @return whether it gives: it slides or opens
+  bool unbond(State& state, Index element) const;
+
   /// Lets every element bear, at zero opening and slip, the traction that balances the corner
   /// forces given (rock's internal forces and loads, per corner [N/m]); fixed corners need no
   /// balance. Elements are then in equilibrium to round-off with no step taken.

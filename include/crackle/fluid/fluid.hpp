@@ -37,6 +37,12 @@ class Fluid {
   /// @param broken elements that broke in this step
   void connect(State& state, std::span<const Index> broken);
 
+  /// From now on an edge of a joint of the mesh is entered only once its faces are apart; else a fracture
+  /// that reaches a joint without cohesion wets the whole of it, and those that cross it, at once.
+  void enter_joints_as_they_open() { joints_as_they_open_ = true; }
+  /// Dry elements of joints that have opened next to a cavity: to connect().
+  std::vector<Index> opened_joints(const State& state) const;
+
   /// One step, after the rock has moved without the fluid (v*, x*): pumps, finds the pressure that
   /// fits the volume with it, and moves the wetted nodes on:
   ///   V(x*) + Δt² s p = (m/ρ₀) exp(−(p − p₀)/K_f),  s = Σ |∂V/∂x_i|² / m_i
@@ -78,6 +84,7 @@ class Fluid {
     Index cavity;
     Vec2 gradient;
   };
+  bool waits(const State& state, Index edge) const;
   void measure(const State& state);
   double measured_energy(const State& state) const;  // at the volumes last measured
   double measured_power(const State& state) const;   // on the rock, at present velocities [W/m]
@@ -90,6 +97,7 @@ class Fluid {
   std::vector<Wet> wet_;
   std::vector<double> volume_, compliance_, push_;  // per cavity: V(x), s, pressure that pushes
   bool leaks_ = false;
+  bool joints_as_they_open_ = false;
 };
 
 }  // namespace crackle

@@ -140,6 +140,7 @@ struct Case {
     std::optional<double> cavitation_pressure;  ///< [Pa]
     std::string leak_off = "none";              ///< "none", "carter" or "diffusion"
     double leak_off_coefficient = 0.0;          ///< Carter's [m/s^0.5]
+    std::string joints = "whole";               ///< which part of a joint that it reaches: "whole" or "edge"
     std::vector<PumpStage> pump;  ///< sorted by time, not overlapping; a stage without end ends with the run
   } fluid;
 

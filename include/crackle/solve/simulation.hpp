@@ -26,6 +26,13 @@ struct InsertionPolicy {
   double step = 0.75;      ///< time step over the tied rock's, which leaves room for the elements' penalty
 };
 
+/// An edge of a joint, there from the start: before the geostatic stage, in which it may slip.
+struct JointEdge {
+  Index edge = -1;             ///< of the mesh, between two triangles
+  std::uint16_t material = 1;  ///< number of its material: 1 is the first of Scene::joint_materials
+  bool bonded = false;         ///< breaks by its own strength; else closed, held by friction alone
+};
+
 /// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive.
 struct Scene {
   std::shared_ptr<const Mesh> mesh;  ///< excavated
@@ -40,6 +47,11 @@ struct Scene {
   ContactMaterial contact;          ///< of faces that have moved past their partner
   bool absorbing_boundary = false;  ///< outer boundary: absorbing, or fixed
   std::vector<Index> cracks;        ///< mesh edges broken from the start
+  std::vector<JointEdge> joints;    ///< ascending by edge
+  std::vector<CohesiveMaterial>
+      joint_materials;  ///< the strengths of one that is not bonded are not asked for
+  bool joints_edge_by_edge =
+      false;  ///< the fluid enters a joint's edges as they open; else a whole joint at once
   std::optional<CompressibleFluid> fluid;
   double initial_pressure = 0.0;  ///< of the fluid [Pa]
   Pump pump;
@@ -136,11 +148,14 @@ class Simulation {
   static double longest_joint_edge(const Mesh& mesh);
   SeismicMedium medium() const { return {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness}; }
   void cut_cracks();
+  void unbond_joints();
+  void wet_joints();
   void prepare_insertion();
   void set_screen();
   void add_tied_edges_at(Index vertex, std::vector<Index>& edges) const;
   void insert_stressed();
-  void insert(const std::vector<Index>& edges);
+  void insert(const std::vector<Index>& edges, std::uint16_t material = 0);
+  void insert_joints();
   Energies potential_energies() const;
   /// ½ Σ m v_before · v [J/m]
   double kinetic_energy(const std::vector<Vec2>& before) const;

@@ -121,6 +121,48 @@ file = "mapped.csv"
   expect_refusal(crackle({"mesh", file, "-o", path("a.vtu")}), 2, "mapped.csv:2: this row has 3 columns");
 }
 
+TEST_F(Commands, ARunWithJoints) {
+  const std::string text = with("end_time = \"0.9 ms\"", "end_time = \"0.05 ms\"") + R"(
+[[joints]]
+x1 = "0.1 m"
+y1 = "-0.1 m"
+x2 = "0.2 m"
+y2 = "0.2 m"
+residual_friction_angle = "30 deg"
+[[joints]]
+x1 = "-0.1 m"
+y1 = "-0.1 m"
+x2 = "-0.2 m"
+y2 = "0.2 m"
+law = "bonded"
+tensile_strength = "1 MPa"
+cohesion = "5 MPa"
+friction_angle = "30 deg"
+fracture_energy_mode1 = "5 J/m2"
+fracture_energy_mode2 = "50 J/m2"
+)";
+  for (const char* insertion : {"all", "on_demand"}) {
+    const std::string out = path(insertion);
+    const Outcome ran = crackle({"run", write("joints.toml", text), "-o", out, "-q", "-j", "1", "--set",
+                                 std::string("cohesive.insertion=") + insertion});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(read_text(out + "/run.log"), HasSubstr("2 joints: 2 in the mesh"));
+  }
+}
+
+TEST_F(Commands, JointsOfAMeshFileAreKnownByTheirSet) {
+  const std::string file = write(
+      "good.toml", std::string(good_case) + "[[joint_sets]]\nname = \"bedding\"\nfile = \"bedding.csv\"\n");
+  write("bedding.csv", "x1_m,y1_m,x2_m,y2_m\n0.1,0.1,0.3,0.1\n");
+  ASSERT_EQ(crackle({"mesh", file, "-o", path("a.msh")}).code, 0);
+  const std::string from_file = with("size_fine = \"15 mm\"", "size_fine = \"15 mm\"\nfile = \"a.msh\"");
+  expect_refusal(crackle({"check", write("b.toml", from_file)}), 2,
+                 "has joints of the set \"bedding\": say how");
+  for (const char* set : {"[[joint_sets]]\nname = \"bedding\"\n", "[[joint_sets]]\n"}) {
+    EXPECT_EQ(crackle({"check", "-j", "1", write("b.toml", from_file + set)}).code, 0) << set;
+  }
+}
+
 TEST_F(Commands, MeshFollowsItsSeed) {
   const std::string file = write("good.toml", good_case);
   for (const char* seed : {"1", "2"}) {
