@@ -186,7 +186,7 @@ std::vector<Vec2> Simulation::geostatic_displacement() {
   const StaticSolver solver(scene_.mesh, bulk_, fixed);
   std::vector<Vec2> displacement = solver.displacement(wall_loads(wet, fluid));
   if (fluid && scene_.fast_forward && scene_.law && scene_.insertion.on_demand && scene_.cracks.empty() &&
-      !scene_.absorbing_boundary) {
+      scene_.joints.empty() && !scene_.absorbing_boundary) {
     find_ramp(solver, wet, fluid, displacement);
   }
   return displacement;
