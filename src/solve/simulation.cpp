@@ -439,9 +439,11 @@ void Simulation::insert_stressed() {
   }
   // Elements that bear that much and have an end that is tied yet: the tip of a fracture to be.
   for (const CohesiveHistory& h : state_.cohesive.histories) {
-    const bool joint = mesh.edges[at(state_.cohesive.edge[at(h.element)])].joint >= 0;
-    if (joint && h.fracture_energy == 0.0)
-      continue;  // its end stays tied until the rock there is near its strength
+    // The end of a joint without cohesion stays tied until the rock there is near its strength.
+    const bool unbonded = state_.cohesive.status[at(h.element)] >= CohesiveStatus::broken &&
+                          h.fracture_energy == 0.0 &&
+                          mesh.edges[at(state_.cohesive.edge[at(h.element)])].joint >= 0;
+    if (unbonded) continue;
     const auto& n = state_.cohesive.nodes[at(h.element)];
     if ((n[0] != n[2] && n[1] != n[3]) || cohesive_->utilisation(state_, h) < scene_.insertion.threshold)
       continue;
