@@ -47,6 +47,7 @@ RegimeChoice choose_regime(const Case& scene) {
   if (choice.quasi_static) {
     require(scene.fracture.notch > 0.0, scene, "it starts from a fracture: give fracture.notch");
     require(scene.mesh.file.empty(), scene, "meshes from a file are not yet taken");
+    require(scene.joints.empty() && scene.joint_sets.empty(), scene, "joints are not yet taken");
     require(scene.fluid.viscosity > 0.0, scene, "give fluid.viscosity");
     require(!scene.fluid.pump.empty(), scene, "give a [[fluid.pump]]");
     require(scene.stress.xy == 0.0, scene, "its fracture lies along x: stress.xy has to be 0");
