@@ -61,10 +61,10 @@ Vec2 Ramp::displacement(Index vertex, double p) const {
   return (1.0 - s) * first_.displacement[at(vertex)] + s * last_.displacement[at(vertex)];
 }
 
-std::optional<double> onset_pressure(const State& state, const Bulk& bulk, const CohesiveMaterial& material,
+std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk, const CohesiveMaterial& material,
                                      double share, const Ramp::Point& first, const Ramp::Point& second) {
-  const Mesh& mesh = *state.mesh;
-  State tied = state;
+  const Mesh& mesh = *at_rest.mesh;
+  State tied = at_rest;
   const std::vector<Sym2> a = stresses(tied, bulk, first.displacement);
   const std::vector<Sym2> b = stresses(tied, bulk, second.displacement);
   // True if some edge passes at a pressure.

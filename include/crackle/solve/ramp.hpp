@@ -51,7 +51,7 @@ class Ramp {
 
 /// Lowest pressure [Pa] above the first at which a tied interior edge comes to a share of its strength,
 /// when stresses go on as from the first point to the second; nothing if one is there already.
-std::optional<double> onset_pressure(const State& tied, const Bulk& bulk, const CohesiveMaterial& material,
+std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk, const CohesiveMaterial& material,
                                      double share, const Ramp::Point& first, const Ramp::Point& second);
 
 }  // namespace crackle
