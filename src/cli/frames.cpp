@@ -25,24 +25,39 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
   FieldFrame frame;
   frame.time = state.time;
   const Index triangles = state.mesh->triangle_count();
-  Field displacement{"displacement_m", 2, {}}, velocity{"velocity_m_s", 2, {}};
-  for (Index c = 0; c < 3 * triangles; ++c) {
-    const std::size_t n = at(state.node_of_corner[at(c)]);
-    frame.points.push_back(state.position(c));
-    displacement.values.insert(displacement.values.end(), {state.displacement[n].x, state.displacement[n].y});
-    velocity.values.insert(velocity.values.end(), {state.velocity[n].x, state.velocity[n].y});
+  // One field after the other, and none that is not wanted: a frame is the largest thing in memory.
+  const auto corners = at(3 * triangles);
+  frame.points.reserve(corners);
+  for (Index c = 0; c < 3 * triangles; ++c) frame.points.push_back(state.position(c));
+  frame.triangles.reserve(at(triangles));
+  for (Index t = 0; t < triangles; ++t) frame.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  const auto add_of_nodes = [&](const char* name, const std::vector<Vec2>& values) {
+    if (!wanted(name)) return;
+    Field field{name, 2, {}};
+    field.values.reserve(2 * corners);
+    for (const Index n : state.node_of_corner) {
+      field.values.push_back(values[at(n)].x);
+      field.values.push_back(values[at(n)].y);
+    }
+    frame.point_fields.push_back(std::move(field));
+  };
+  add_of_nodes("displacement_m", state.displacement);
+  add_of_nodes("velocity_m_s", state.velocity);
+  if (wanted("stress_Pa")) {
+    Field stress{"stress_Pa", 3, {}};
+    stress.values.reserve(corners);
+    for (Index t = 0; t < triangles; ++t) {
+      const Sym2 s = simulation.bulk().stress(state, t);
+      stress.values.insert(stress.values.end(), {s.xx, s.yy, s.xy});
+    }
+    frame.cell_fields.push_back(std::move(stress));
   }
-  Field stress{"stress_Pa", 3, {}}, region{"region", 1, {}};
-  for (Index t = 0; t < triangles; ++t) {
-    frame.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    const Sym2 s = simulation.bulk().stress(state, t);
-    stress.values.insert(stress.values.end(), {s.xx, s.yy, s.xy});
-    region.values.push_back(static_cast<double>(state.mesh->regions[at(t)]));
+  if (wanted("region")) {
+    Field region{"region", 1, {}};
+    region.values.reserve(at(triangles));
+    for (const Region r : state.mesh->regions) region.values.push_back(static_cast<double>(r));
+    frame.cell_fields.push_back(std::move(region));
   }
-  if (wanted("displacement_m")) frame.point_fields.push_back(std::move(displacement));
-  if (wanted("velocity_m_s")) frame.point_fields.push_back(std::move(velocity));
-  if (wanted("stress_Pa")) frame.cell_fields.push_back(std::move(stress));
-  if (wanted("region")) frame.cell_fields.push_back(std::move(region));
   return frame;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "crackle/io/checkpoint.hpp"
 #include "crackle/io/output.hpp"
@@ -127,7 +128,7 @@ void RunFolder::append_event(const SeismicEvent& event) {
   events_->append(event_line(event));
 }
 
-void RunFolder::write_frame(const FieldFrame& fields, const FractureFrame& fractures) {
+void RunFolder::write_frame(FieldFrame fields, const FractureFrame& fractures) {
   start();
   for (const char* kind : {"fields", "fractures"}) {
     std::error_code reason;
@@ -135,9 +136,10 @@ void RunFolder::write_frame(const FieldFrame& fields, const FractureFrame& fract
     if (!fs::is_directory(file(kind))) throw_file_error(file(kind), "create the folder", reason.value());
   }
   const std::size_t frame = frame_times_.size();
-  write_vtu(file(frame_name("fields", frame)), fields);
+  const double time = fields.time;
+  write_vtu(file(frame_name("fields", frame)), std::move(fields));
   write_vtu(file(frame_name("fractures", frame)), fractures);
-  frame_times_.push_back(fields.time);
+  frame_times_.push_back(time);
   write_pvd();
 }
 

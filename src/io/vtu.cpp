@@ -163,12 +163,16 @@ FractureFrame without_fractures(FractureFrame frame) {
 
 }  // namespace
 
-void write_vtu(const std::string& path, const FieldFrame& frame) {
+void write_vtu(const std::string& path, FieldFrame frame) {
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(to_points(frame.points));
   grid->SetCells(VTK_TRIANGLE, to_cells(frame.triangles));
-  for (const Field& field : frame.point_fields) {
-    grid->GetPointData()->AddArray(to_array(field, frame.points.size()));
+  // What VTK has a copy of, with a third component, is let go at once.
+  const std::size_t places = frame.points.size();
+  frame.points = {};
+  for (Field& field : frame.point_fields) {
+    grid->GetPointData()->AddArray(to_array(field, places));
+    if (field.components == 2) field.values = {};
   }
   for (const Field& field : frame.cell_fields) {
     grid->GetCellData()->AddArray(to_array(field, frame.triangles.size()));

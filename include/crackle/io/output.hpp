@@ -163,7 +163,7 @@ class RunFolder {
   void append_event(const SeismicEvent& event);
   /// Writes fields/fields_NNNNNN.vtu and fractures/fractures_NNNNNN.vtu, counted from 0, and renews
   /// fields.pvd and fractures.pvd.
-  void write_frame(const FieldFrame& fields, const FractureFrame& fractures);
+  void write_frame(FieldFrame fields, const FractureFrame& fractures);
   /// events.xml, QuakeML 1.2.
   void write_quakeml(const std::vector<SeismicEvent>& events, const Case& scene);
   void write_summary(const RunSummary& summary);
@@ -209,7 +209,7 @@ class RunFolder {
 /// A field with 2 components becomes a vector with z = 0, so that ParaView shows it as one.
 /// @throws CaseError when the file cannot be written, std::invalid_argument when a field has not one
 /// value a point or cell.
-void write_vtu(const std::string& path, const FieldFrame& frame);
+void write_vtu(const std::string& path, FieldFrame frame);
 /// Writes lines to a .vtu file. Without any line it holds one of no length at the origin with every
 /// value zero, because meshio cannot read a grid without cells.
 void write_vtu(const std::string& path, const FractureFrame& frame);
