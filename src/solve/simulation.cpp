@@ -362,7 +362,9 @@ void Simulation::prepare_insertion() {
 }
 
 void Simulation::insert_joints() {
-  for (std::uint16_t material = 1; material <= scene_.joint_materials.size(); ++material) {
+  const auto materials = static_cast<int>(scene_.joint_materials.size());
+  for (int number = 1; number <= materials; ++number) {
+    const auto material = static_cast<std::uint16_t>(number);
     std::vector<Index> edges;
     for (const JointEdge& joint : scene_.joints) {
       if (joint.material == material) edges.push_back(joint.edge);
