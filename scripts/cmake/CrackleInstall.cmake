@@ -15,6 +15,7 @@ set_target_properties(crackle_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib
 
 install(TARGETS crackle EXPORT crackle_targets)
 install(TARGETS crackle_cli)
+install(TARGETS crackle_gmsh LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/crackle" "${PROJECT_BINARY_DIR}/include/crackle"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scripts/plots" DESTINATION "${CMAKE_INSTALL_DATADIR}/crackle"

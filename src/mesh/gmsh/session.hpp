@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace crackle::meshing {
+namespace crackle::meshing::by_gmsh {
 
 /// Runs an action between gmsh's initialisation and finalisation, with an empty model and no output
 /// to the terminal. gmsh keeps its state in globals: one session at a time.
@@ -12,4 +12,4 @@ namespace crackle::meshing {
 /// @throws MeshError for whatever goes wrong in the action
 void with_gmsh(const std::string& what, const std::function<void()>& action);
 
-}  // namespace crackle::meshing
+}  // namespace crackle::meshing::by_gmsh

@@ -4,10 +4,11 @@
 #include <gmsh.h>
 
 #include "crackle/core/errors.hpp"
+#include "gmsh_module.hpp"
 #include "gmsh_names.hpp"
-#include "gmsh_session.hpp"
+#include "session.hpp"
 
-namespace crackle {
+namespace crackle::meshing::by_gmsh {
 namespace {
 
 namespace model = gmsh::model;
@@ -38,7 +39,7 @@ void add_triangles(const Mesh& mesh, Region region, int surface, const std::stri
     tags.push_back(tag_of(t));
     for (const Index v : mesh.triangles[t]) nodes.push_back(tag_of(v));
   }
-  if (!tags.empty()) model::mesh::addElementsByType(surface, meshing::gmsh_triangle, tags, nodes);
+  if (!tags.empty()) model::mesh::addElementsByType(surface, gmsh_triangle, tags, nodes);
   name_group(2, surface, name);
 }
 
@@ -51,7 +52,7 @@ void add_curve(const Mesh& mesh, const std::vector<Index>& edges, int curve, con
     tags.push_back(mesh.triangles.size() + tag_of(e));
     for (const Index v : mesh.edges[e].vertex) nodes.push_back(tag_of(v));
   }
-  if (!tags.empty()) model::mesh::addElementsByType(curve, meshing::gmsh_line, tags, nodes);
+  if (!tags.empty()) model::mesh::addElementsByType(curve, gmsh_line, tags, nodes);
   name_group(1, curve, name);
 }
 
@@ -65,22 +66,22 @@ void add_curves(const Mesh& mesh) {
     if (edge.joint >= static_cast<Index>(joints.size())) joints.resize(edge.joint + 1);
     joints[edge.joint].push_back(e);
   }
-  if (!wall.empty()) add_curve(mesh, wall, wall_curve, meshing::gmsh_wall_name);
+  if (!wall.empty()) add_curve(mesh, wall, wall_curve, gmsh_wall_name);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Index joint = static_cast<Index>(j);
     const bool in_set = j < mesh.set_of_joint.size() && !mesh.joint_sets.empty();
     const std::string set = in_set ? mesh.joint_sets[mesh.set_of_joint[j]] : "";
-    add_curve(mesh, joints[j], first_joint_curve + joint, meshing::joint_name(set, joint));
+    add_curve(mesh, joints[j], first_joint_curve + joint, joint_name(set, joint));
   }
 }
 
 }  // namespace
 
-void write_gmsh(const Mesh& mesh, const std::string& path) {
+void write(const Mesh& mesh, const std::string& path) {
   if (!path.ends_with(".msh")) {
     throw MeshError(fmt::format("mesh file \"{}\": its name has to end in .msh", path));
   }
-  meshing::with_gmsh(fmt::format("mesh file \"{}\"", path), [&] {
+  with_gmsh(fmt::format("mesh file \"{}\"", path), [&] {
     gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
     gmsh::option::setNumber("Mesh.Binary", 1);  // as text, gmsh writes 16 digits: one short of exact
     gmsh::option::setNumber("Mesh.SaveAll", 1);
@@ -88,10 +89,10 @@ void write_gmsh(const Mesh& mesh, const std::string& path) {
     model::addDiscreteEntity(2, core_surface);
     add_vertices(mesh);
     add_triangles(mesh, Region::rock, rock_surface, "rock");
-    add_triangles(mesh, Region::wellbore_core, core_surface, meshing::gmsh_core_name);
+    add_triangles(mesh, Region::wellbore_core, core_surface, gmsh_core_name);
     add_curves(mesh);
     gmsh::write(path);
   });
 }
 
-}  // namespace crackle
+}  // namespace crackle::meshing::by_gmsh

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gmsh_session.hpp"
+#include "session.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
 
 #include "crackle/core/errors.hpp"
 
-namespace crackle::meshing {
+namespace crackle::meshing::by_gmsh {
 namespace {
 
 class Session {
@@ -44,4 +44,4 @@ void with_gmsh(const std::string& what, const std::function<void()>& action) {
   throw MeshError(fmt::format("{}: {}", what, complaint));
 }
 
-}  // namespace crackle::meshing
+}  // namespace crackle::meshing::by_gmsh

@@ -8,12 +8,13 @@
 
 #include "crackle/core/errors.hpp"
 #include "draft.hpp"
-#include "gmsh_session.hpp"
+#include "gmsh_module.hpp"
 #include "hilbert.hpp"
 #include "random.hpp"
+#include "session.hpp"
 #include "wellbore.hpp"
 
-namespace crackle::meshing {
+namespace crackle::meshing::by_gmsh {
 namespace {
 
 constexpr double delaunay = 5;  // gmsh's Mesh.Algorithm
@@ -107,7 +108,7 @@ std::vector<Vec2> read_points(const SizeField& size, std::uint64_t seed) {
 
 }  // namespace
 
-void fill_by_gmsh(Draft& draft, const MeshRecipe& recipe, const SizeField& size) {
+void fill(Draft& draft, const MeshRecipe& recipe, const SizeField& size) {
   std::vector<Vec2> points;
   with_gmsh("gmsh cannot mesh the recipe", [&] {
     set_options();
@@ -123,4 +124,4 @@ void fill_by_gmsh(Draft& draft, const MeshRecipe& recipe, const SizeField& size)
   smooth(draft, size);
 }
 
-}  // namespace crackle::meshing
+}  // namespace crackle::meshing::by_gmsh

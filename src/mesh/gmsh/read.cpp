@@ -10,13 +10,12 @@
 
 #include "crackle/core/errors.hpp"
 #include "edge_marks.hpp"
+#include "gmsh_module.hpp"
 #include "gmsh_names.hpp"
-#include "gmsh_session.hpp"
+#include "session.hpp"
 
-namespace crackle {
+namespace crackle::meshing::by_gmsh {
 namespace {
-
-using meshing::EdgeMark;
 
 struct Element {
   std::size_t tag = 0;
@@ -34,7 +33,7 @@ std::vector<int> entities_of(int dimension) {
 
 /// Elements of an entity, all of one type. @throws MeshError on another type
 std::vector<Element> elements_of(int dimension, int entity) {
-  const int wanted = dimension == 1 ? meshing::gmsh_line : meshing::gmsh_triangle;
+  const int wanted = dimension == 1 ? gmsh_line : gmsh_triangle;
   const std::size_t nodes_each = dimension == 1 ? 2 : 3;
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
@@ -78,7 +77,7 @@ std::vector<Element> read_triangles() {
   if (!entities_of(3).empty()) throw MeshError("it has volumes: a mesh of the plane is needed");
   const auto groups = physical_groups(2);
   std::vector<int> core;
-  if (const auto found = groups.find(meshing::gmsh_core_name); found != groups.end()) core = found->second;
+  if (const auto found = groups.find(gmsh_core_name); found != groups.end()) core = found->second;
   std::vector<Element> triangles;
   for (const int entity : entities_of(2)) {
     const bool in_core = std::find(core.begin(), core.end(), entity) != core.end();
@@ -153,15 +152,14 @@ std::vector<EdgeMark> read_marks(const std::map<std::size_t, Index>& vertex, Mes
     }
   };
   const auto groups = physical_groups(1);
-  std::map<std::string, std::vector<int>, decltype(&meshing::joint_name_before)> joints(
-      &meshing::joint_name_before);
+  std::map<std::string, std::vector<int>, decltype(&joint_name_before)> joints(&joint_name_before);
   for (const auto& [name, entities] : groups) {
-    if (name == meshing::gmsh_wall_name) collect(entities, EdgeKind::wellbore, -1);
+    if (name == gmsh_wall_name) collect(entities, EdgeKind::wellbore, -1);
     if (name.starts_with("joint")) joints[name] = entities;
   }
   for (const auto& [name, entities] : joints) {
     collect(entities, EdgeKind::interior, static_cast<Index>(mesh.set_of_joint.size()));
-    const std::string set = meshing::set_of_joint_name(name);
+    const std::string set = set_of_joint_name(name);
     const auto known = std::find(mesh.joint_sets.begin(), mesh.joint_sets.end(), set);
     mesh.set_of_joint.push_back(static_cast<Index>(known - mesh.joint_sets.begin()));
     if (known == mesh.joint_sets.end()) mesh.joint_sets.push_back(set);
@@ -190,7 +188,7 @@ Mesh read_open_model() {
     mesh.regions.push_back(triangle.region);
   }
   build_edges(mesh);
-  const auto missing = meshing::apply_edge_marks(mesh, read_marks(vertex, mesh));
+  const auto missing = apply_edge_marks(mesh, read_marks(vertex, mesh));
   if (!missing.empty()) {
     const Vec2 at = mesh.vertices[missing.front().vertex[0]];
     throw MeshError(fmt::format(
@@ -202,9 +200,9 @@ Mesh read_open_model() {
 
 }  // namespace
 
-Mesh read_gmsh(const std::string& path) {
+Mesh read(const std::string& path) {
   Mesh mesh;
-  meshing::with_gmsh(fmt::format("mesh file \"{}\"", path), [&] {
+  with_gmsh(fmt::format("mesh file \"{}\"", path), [&] {
     require_mesh_file(path);
     gmsh::open(path);
     mesh = read_open_model();
@@ -212,4 +210,4 @@ Mesh read_gmsh(const std::string& path) {
   return mesh;
 }
 
-}  // namespace crackle
+}  // namespace crackle::meshing::by_gmsh
