@@ -36,8 +36,8 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     Field field{name, 2, {}};
     field.values.reserve(2 * corners);
     for (const Index n : state.node_of_corner) {
-      field.values.push_back(values[at(n)].x);
-      field.values.push_back(values[at(n)].y);
+      field.add(values[at(n)].x);
+      field.add(values[at(n)].y);
     }
     frame.point_fields.push_back(std::move(field));
   };
@@ -48,14 +48,14 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     stress.values.reserve(corners);
     for (Index t = 0; t < triangles; ++t) {
       const Sym2 s = simulation.bulk().stress(state, t);
-      stress.values.insert(stress.values.end(), {s.xx, s.yy, s.xy});
+      for (const double value : {s.xx, s.yy, s.xy}) stress.add(value);
     }
     frame.cell_fields.push_back(std::move(stress));
   }
   if (wanted("region")) {
     Field region{"region", 1, {}};
     region.values.reserve(at(triangles));
-    for (const Region r : state.mesh->regions) region.values.push_back(static_cast<double>(r));
+    for (const Region r : state.mesh->regions) region.add(static_cast<double>(r));
     frame.cell_fields.push_back(std::move(region));
   }
   return frame;
@@ -82,16 +82,16 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     frame.lines.push_back({p, p + 1});
     const bool is_broken = state.cohesive.status[i] >= CohesiveStatus::broken;
     const Index cavity = state.fluid.cavity_of_edge[at(state.cohesive.edge[i])];
-    opening.values.push_back(h.point[2].opening);
-    slip.values.push_back(h.point[2].slip);
-    damage.values.push_back(d);
+    opening.add(h.point[2].opening);
+    slip.add(h.point[2].slip);
+    damage.add(d);
     const double share = h.fracture_energy > 0.0 ? h.sliding_work / h.fracture_energy : 0.0;
     // a joint that never had cohesion is broken in no mode
     const bool unbonded =
         h.fracture_energy == 0.0 && state.mesh->edges[at(state.cohesive.edge[i])].joint >= 0;
-    mode.values.push_back(is_broken && !unbonded ? static_cast<double>(failure_mode(share)) : 0.0);
-    pressure.values.push_back(cavity >= 0 ? state.fluid.cavities[at(cavity)].pressure : 0.0);
-    broken.values.push_back(is_broken ? 1.0 : 0.0);
+    mode.add(is_broken && !unbonded ? static_cast<double>(failure_mode(share)) : 0.0);
+    pressure.add(cavity >= 0 ? state.fluid.cavities[at(cavity)].pressure : 0.0);
+    broken.add(is_broken ? 1.0 : 0.0);
   }
   frame.cell_fields = {std::move(opening), std::move(slip),     std::move(damage),
                        std::move(mode),    std::move(pressure), std::move(broken)};

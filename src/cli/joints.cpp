@@ -145,8 +145,8 @@ FractureFrame joint_frame(const Mesh& mesh) {
     const Index first = static_cast<Index>(frame.points.size());
     for (const Index v : edge.vertex) frame.points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
     frame.lines.push_back({first, first + 1});
-    joint.values.push_back(edge.joint);
-    set.values.push_back(mesh.set_of_joint.at(static_cast<std::size_t>(edge.joint)));
+    joint.add(edge.joint);
+    set.add(mesh.set_of_joint.at(static_cast<std::size_t>(edge.joint)));
   }
   frame.cell_fields = {std::move(joint), std::move(set)};
   return frame;

@@ -26,7 +26,7 @@ FieldFrame frame_of(const Mesh& mesh) {
   frame.points = mesh.vertices;
   frame.triangles = mesh.triangles;
   Field region{"region", 1, {}};
-  for (const Region r : mesh.regions) region.values.push_back(static_cast<double>(r));
+  for (const Region r : mesh.regions) region.add(static_cast<double>(r));
   frame.cell_fields.push_back(std::move(region));
   return frame;
 }

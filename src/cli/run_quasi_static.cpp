@@ -66,11 +66,12 @@ FieldFrame field_frame(const QuasiStatic& stage, const std::vector<std::string>&
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 u = moved[3 * at(t) + i];
       frame.points.push_back(mesh.vertices[at(mesh.triangles[at(t)][i])] + u);
-      displacement.values.insert(displacement.values.end(), {u.x, u.y});
+      for (const double value : {u.x, u.y}) displacement.add(value);
     }
-    region.values.push_back(static_cast<double>(mesh.regions[at(t)]));
+    region.add(static_cast<double>(mesh.regions[at(t)]));
   }
-  for (const Sym2& s : stage.stress(moved)) stress.values.insert(stress.values.end(), {s.xx, s.yy, s.xy});
+  for (const Sym2& s : stage.stress(moved))
+    for (const double value : {s.xx, s.yy, s.xy}) stress.add(value);
   if (wanted("displacement_m")) frame.point_fields.push_back(std::move(displacement));
   if (wanted("stress_Pa")) frame.cell_fields.push_back(std::move(stress));
   if (wanted("region")) frame.cell_fields.push_back(std::move(region));
@@ -91,13 +92,13 @@ FractureFrame fracture_frame(const QuasiStatic& stage) {
     for (const Index v : stage.path().edges()[c].vertex) frame.points.push_back(mesh.vertices[at(v)]);
     frame.lines.push_back({p, p + 1});
     const bool is_broken = std::min(cell.damage[0], cell.damage[1]) >= 1.0;
-    opening.values.push_back(0.5 * (cell.opening[0] + cell.opening[1]));
-    slip.values.push_back(0.0);
-    damage.values.push_back(0.5 * (cell.damage[0] + cell.damage[1]));
-    mode.values.push_back(is_broken ? static_cast<double>(FailureMode::tensile) : 0.0);
-    pressure.values.push_back(cell.pressure);
-    broken.values.push_back(is_broken ? 1.0 : 0.0);
-    leaked.values.push_back(0.5 * cell.leaked / cell.length);
+    opening.add(0.5 * (cell.opening[0] + cell.opening[1]));
+    slip.add(0.0);
+    damage.add(0.5 * (cell.damage[0] + cell.damage[1]));
+    mode.add(is_broken ? static_cast<double>(FailureMode::tensile) : 0.0);
+    pressure.add(cell.pressure);
+    broken.add(is_broken ? 1.0 : 0.0);
+    leaked.add(0.5 * cell.leaked / cell.length);
   }
   frame.cell_fields = {std::move(opening),  std::move(slip),   std::move(damage), std::move(mode),
                        std::move(pressure), std::move(broken), std::move(leaked)};

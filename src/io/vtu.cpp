@@ -6,6 +6,7 @@
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -70,19 +71,19 @@ vtkSmartPointer<vtkDataArray> to_array(const Field& field, std::size_t count) {
                                 " values for " + std::to_string(count) + " places of " +
                                 std::to_string(field.components) + " components");
   }
-  vtkSmartPointer<vtkDoubleArray> array;
+  vtkSmartPointer<vtkFloatArray> array;
   if (field.components == 2) {
-    array = vtkSmartPointer<vtkDoubleArray>::New();
+    array = vtkSmartPointer<vtkFloatArray>::New();
     array->SetNumberOfComponents(3);
     array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-    double* out = array->GetPointer(0);
+    float* out = array->GetPointer(0);
     for (std::size_t i = 0; i < count; ++i) {
       *out++ = field.values[2 * i];
       *out++ = field.values[2 * i + 1];
-      *out++ = 0.0;
+      *out++ = 0.0F;
     }
   } else {
-    array = borrow<vtkDoubleArray>(field.values.data(), field.values.size(), field.components);
+    array = borrow<vtkFloatArray>(field.values.data(), field.values.size(), field.components);
   }
   if (field.components == 3) {
     array->SetComponentName(0, "xx");
@@ -157,7 +158,8 @@ void write_grid(const std::string& path, vtkUnstructuredGrid* grid, double time)
 FractureFrame without_fractures(FractureFrame frame) {
   frame.points = {{}, {}};
   frame.lines = {{0, 1}};
-  for (Field& field : frame.cell_fields) field.values.assign(static_cast<std::size_t>(field.components), 0.0);
+  for (Field& field : frame.cell_fields)
+    field.values.assign(static_cast<std::size_t>(field.components), 0.0F);
   return frame;
 }
 

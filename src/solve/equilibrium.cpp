@@ -11,6 +11,7 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/core/parallel.hpp"
 #include "crackle/solve/element_stiffness.hpp"
+#include "dissection.hpp"
 
 namespace crackle {
 namespace {
@@ -20,7 +21,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 struct StaticSolver::Factor {
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<float>> solver;
+  // The unknowns are numbered in the order of elimination.
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<float>, Eigen::Lower, Eigen::NaturalOrdering<int>> solver;
 };
 
 StaticSolver::~StaticSolver() = default;
@@ -32,8 +34,8 @@ StaticSolver::StaticSolver(std::shared_ptr<const Mesh> mesh_ptr, const Bulk& bul
       unknown_(mesh_->vertices.size(), -1),
       factor_(std::make_unique<Factor>()) {
   const Mesh& mesh = *mesh_;
-  for (std::size_t v = 0; v < unknown_.size(); ++v) {
-    if (!fixed[v]) unknown_[v] = count_++;
+  for (const Index v : nested_dissection(mesh)) {
+    if (!fixed[at(v)]) unknown_[at(v)] = count_++;
   }
   std::vector<Eigen::Triplet<float>> entries;
   entries.reserve(mesh.triangles.size() * 21);

@@ -187,6 +187,12 @@ void fix_nodes(State& state, EdgeKind kind) {
 
 void insert_all(State& state) {
   const Mesh& mesh = *state.mesh;
+  const auto interior =
+      static_cast<std::size_t>(std::ranges::count(mesh.edges, EdgeKind::interior, &Edge::kind));
+  CohesiveElements& elements = state.cohesive;
+  const auto reserve = [&](auto&... arrays) { (arrays.reserve(interior), ...); };
+  reserve(elements.edge, elements.nodes, elements.direction, elements.inverse_length, elements.offset,
+          elements.material, elements.force, elements.status, elements.history_of);
   for (Index e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edges[at(e)].kind == EdgeKind::interior) append_element(state, e, 0);
   }

@@ -55,7 +55,9 @@ struct FieldTimeRow {
 struct Field {
   std::string name;  ///< with its unit, e.g. "stress_Pa"
   int components = 1;
-  std::vector<double> values;
+  std::vector<float> values;  ///< seven digits, for half the memory and two thirds of the file
+
+  void add(double value) { values.push_back(static_cast<float>(value)); }
 };
 
 /// What one frame of fields/*.vtu shows: every triangle with its own three points, so that

@@ -35,6 +35,7 @@ LIBRARIES = [
     ("HDF5", r"(hdf5|H5\w*)\.h", "src/io"),
     ("toml++", r"toml(\+\+/|plusplus|\.hpp)", "src/io"),
     ("Eigen", r"(unsupported/)?Eigen/", "src/solve"),
+    ("METIS", r"metis\.h", "src/solve"),
     ("UDUNITS-2", r"(udunits2?/)?udunits2?\.h", "src/core"),
     ("CLI11", r"CLI/", "src/cli"),
     ("GoogleTest or google-benchmark", r"(gtest|gmock|benchmark)/", "tests"),

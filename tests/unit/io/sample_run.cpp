@@ -114,12 +114,12 @@ FieldFrame sample_fields(double time, SampleSize size) {
       const double step = 1e-7;
       const Vec2 v = (1.0 / step) * (displacement(corner, time + step) - u);
       frame.points.push_back(corner + u);
-      displacements.values.insert(displacements.values.end(), {u.x, u.y});
-      velocities.values.insert(velocities.values.end(), {v.x, v.y});
+      for (const double value : {u.x, u.y}) displacements.add(value);
+      for (const double value : {v.x, v.y}) velocities.add(value);
     }
     const double r = norm(corners[0]);
-    stress.values.insert(stress.values.end(), {-5e6 * radius / r, -4e6 * radius / r, 1e5 * corners[0].x});
-    region.values.push_back(0.0);
+    for (const double value : {-5e6 * radius / r, -4e6 * radius / r, 1e5 * corners[0].x}) stress.add(value);
+    region.add(0.0);
   };
   for (int ring = 0; ring < size.rings; ++ring) {
     for (int sector = 0; sector < size.segments; ++sector) {
@@ -153,12 +153,12 @@ FractureFrame sample_fractures(double time, SampleSize size) {
     frame.points.push_back(crack.from);
     frame.points.push_back(crack.to);
     frame.lines.push_back({first, first + 1});
-    opening.values.push_back(is_broken ? 1e-5 + since * 0.05 : 2e-6);
-    slip.values.push_back(crack.mode == FailureMode::tensile ? 0.0 : 1e-5);
-    damage.values.push_back(is_broken ? 1.0 : 0.5);
-    mode.values.push_back(is_broken ? static_cast<double>(crack.mode) : 0.0);
-    pressure.values.push_back(is_broken ? sample_history(time).pressure : 0.0);
-    broken.values.push_back(is_broken ? 1.0 : 0.0);
+    opening.add(is_broken ? 1e-5 + since * 0.05 : 2e-6);
+    slip.add(crack.mode == FailureMode::tensile ? 0.0 : 1e-5);
+    damage.add(is_broken ? 1.0 : 0.5);
+    mode.add(is_broken ? static_cast<double>(crack.mode) : 0.0);
+    pressure.add(is_broken ? sample_history(time).pressure : 0.0);
+    broken.add(is_broken ? 1.0 : 0.0);
   }
   frame.cell_fields = {std::move(opening), std::move(slip),     std::move(damage),
                        std::move(mode),    std::move(pressure), std::move(broken)};
