@@ -28,8 +28,8 @@ function(crackle_compile_settings target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(CRACKLE_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
-    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+    target_compile_options(${target} PRIVATE -fsanitize=${CRACKLE_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${CRACKLE_SANITIZE})
     # Eigen would use an allocator of its own under the address sanitizer, and libgmsh, built without, shares its
     # functions: what one allocates the other frees.
     target_compile_definitions(${target} PRIVATE CRACKLE_SANITIZED EIGEN_MALLOC_ALREADY_ALIGNED=1)

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 namespace crackle {
 namespace {
@@ -127,21 +128,21 @@ double scale(double value, double factor) {
 }  // namespace
 
 struct Units::Database {
+  Database();
   struct Free {
     void operator()(ut_system* s) const { ut_free_system(s); }
   };
   std::unique_ptr<ut_system, Free> system;
 };
 
-Units::Units() : database_(std::make_unique<Database>()) {
+Units::Database::Database() {
   const DecimalPoint decimal_point;
   ut_set_error_message_handler(ut_ignore);
-  database_->system.reset(ut_read_xml(nullptr));
-  ut_system* system = database_->system.get();
+  system.reset(ut_read_xml(nullptr));
   if (!system)
     throw UnitError("the UDUNITS-2 database of units cannot be read; is libudunits2-data installed?");
   const auto add = [&](const char* symbol, const char* meaning) {
-    const Unit unit = parse(system, meaning);
+    const Unit unit = parse(system.get(), meaning);
     if (!unit || ut_map_symbol_to_unit(symbol, UT_UTF8, unit.get()) != UT_SUCCESS) {
       throw UnitError(fmt::format("the UDUNITS-2 database does not take the unit {}", symbol));
     }
@@ -151,7 +152,12 @@ Units::Units() : database_(std::make_unique<Database>()) {
   add("cP", "1e-3 Pa s");
 }
 
-Units::~Units() = default;
+const Units::Database& Units::database() {
+  static const Database database;  // read-only; some milliseconds to make
+  return database;
+}
+
+Units::Units() : database_(database()) {}
 
 double Units::convert(std::string_view text, std::span<const std::string_view> targets) const {
   const DecimalPoint decimal_point;
@@ -167,10 +173,10 @@ double Units::convert(std::string_view text, std::span<const std::string_view> t
   }
   const std::string_view name = trim(number.substr(static_cast<std::size_t>(end - number.data())));
   const Unit unit =
-      looks_like_unit(name) ? parse(database_->system.get(), name.empty() ? "1" : name) : nullptr;
+      looks_like_unit(name) ? parse(database_.system.get(), name.empty() ? "1" : name) : nullptr;
   if (!unit) throw UnitError(fmt::format("\"{}\" has no known unit", text));
   for (const std::string_view target_name : targets) {
-    const Unit target = parse(database_->system.get(), target_name);
+    const Unit target = parse(database_.system.get(), target_name);
     if (!target) throw UnitError(fmt::format("unknown unit \"{}\" asked for", target_name));
     if (!same_dimension(unit.get(), target.get())) continue;
     const std::unique_ptr<cv_converter, FreeConverter> converter(ut_get_converter(unit.get(), target.get()));

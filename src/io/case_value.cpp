@@ -125,7 +125,8 @@ std::string one_of(std::span<const std::string_view> names) {
 }
 
 void read_value(const TomlNode& value, const ValueContext& context, Case& scene, std::size_t row) {
-  const auto put = [&]<class Slotted>(Slotted slot) {
+  const auto put = [&](auto slot) {
+    using Slotted = decltype(slot);
     if constexpr (std::is_same_v<Slotted, Ref<double>> ||
                   std::is_same_v<Slotted, Ref<std::optional<double>>>) {
       slot(scene, row) = read_number(value, context);

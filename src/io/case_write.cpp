@@ -28,8 +28,8 @@ std::string as_toml(const std::vector<std::string>& texts) {
 
 /// The value of a key as TOML; empty if it has none.
 std::string value_text(const KeySpec& key, Case& scene, std::size_t row) {
-  const auto write = [&]<class Slotted>(Slotted slot) -> std::string {
-    if constexpr (std::is_same_v<Slotted, std::monostate>) {
+  const auto write = [&](auto slot) -> std::string {
+    if constexpr (std::is_same_v<decltype(slot), std::monostate>) {
       return "";
     } else {
       return as_toml(slot(scene, row));

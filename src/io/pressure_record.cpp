@@ -102,9 +102,9 @@ std::optional<Scale> scale_of(const Units& units, const std::string& unit, const
 class RecordReader {
  public:
   RecordReader(std::string path, const RecordColumns& columns)
-      : path_(std::move(path)), text_(read_whole_file(path_)) {
-    chosen_ = {columns.time, columns.pressure, columns.rate};
-  }
+      : path_(std::move(path)),
+        text_(read_whole_file(path_)),
+        chosen_{columns.time, columns.pressure, columns.rate} {}
 
   PressureRecord read() {
     std::string_view rest = text_;

@@ -10,7 +10,7 @@
 // Hot loops are compiled for several x86 levels and picked at start, so that one binary runs
 // everywhere and fast; without contraction (see CrackleRoom.cmake) all give the same bits.
 // Sanitizers do not get along with the resolver that this needs.
-#if defined(__x86_64__) && !defined(CRACKLE_SANITIZED) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && !defined(CRACKLE_SANITIZED)
 #define CRACKLE_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define CRACKLE_KERNEL

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,15 +17,12 @@ class UnitError : public Error {
 };
 
 /// The units that a quantity in a text may have: those of UDUNITS-2, and `deg`, darcy (`D`, `mD`)
-/// and centipoise (`cP`). Reads the UDUNITS database once when made (some milliseconds). UDUNITS
-/// has one parser for the whole process: use one Units at a time.
+/// and centipoise (`cP`). The first one of a process reads the UDUNITS database (some milliseconds).
+/// UDUNITS has one parser for the whole process: use one Units at a time.
 class Units {
  public:
   /// @throws UnitError when the UDUNITS database cannot be read.
   Units();
-  ~Units();
-  Units(const Units&) = delete;
-  Units& operator=(const Units&) = delete;
 
   /// The number that `text` ("3 mm", "1 m3/min", "5 J m-2") is in the first of `targets` that has
   /// its dimension; a target is a unit such as "m" or "m3/s". An angle is not a plain number: "0.66"
@@ -39,7 +35,8 @@ class Units {
 
  private:
   struct Database;
-  std::unique_ptr<Database> database_;
+  static const Database& database();
+  const Database& database_;
 };
 
 }  // namespace crackle
