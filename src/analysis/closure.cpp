@@ -123,7 +123,7 @@ struct Tangent {
 
 /// Last point near the tangent from the origin to x dp/dx.
 Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
-  constexpr double off = 0.1, left = 0.2, deviations = 4.0;
+  constexpr double off = 0.2, deviations = 4.0;
   const std::vector<double>&slope = t.rate.value, &error = t.rate.error;
   const std::size_t first = first_for_tangent(f, contact);
   // beyond, the derivative has no full window
@@ -136,7 +136,7 @@ Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
   const double largest = slope[top];
   if (largest <= 2.0 * deviations * error[top])
     return none(t.name, "Pa", "pressure does not fall beyond noise");
-  if (slope[end - 1] + deviations * error[end - 1] > (1.0 - left) * largest)
+  if (slope[end - 1] + deviations * error[end - 1] > (1.0 - off) * largest)
     return none(t.name, "Pa", t.of + " does not leave the line through the origin");
   std::size_t straight = first, last = top;
   while (slope[straight] < (1.0 - off) * largest) ++straight;
@@ -150,7 +150,7 @@ Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
   pick.value = f.pressure[last];
   pick.time = f.shut_in + f.elapsed[last];
   pick.uncertainty = std::hypot(f.point_error(last), 0.5 * (f.pressure[top] - f.pressure[last]));
-  pick.method = fmt::format("last point within a tenth of the tangent from the origin to {}, at {:.4g}; {}",
+  pick.method = fmt::format("last point within a fifth of the tangent from the origin to {}, at {:.4g}; {}",
                             t.of, t.x[last], window_text(f));
   return pick;
 }

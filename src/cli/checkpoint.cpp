@@ -75,6 +75,15 @@ void members(RunMemory& m, V&& v) {
   v("events", m.events);
 }
 
+template <class V>
+void members(FieldTimeMemory& m, V&& v) {
+  v("tally", m.tally);
+  v("mass_residual_max", m.mass_residual_max);
+  v("next_frame", m.next_frame);
+  v("wall", m.wall);
+  v("folder", m.folder);
+}
+
 namespace {
 
 std::vector<Column> run_columns(Mesh& mesh, State& state, SimulationMemory& simulation, RunMemory& run) {
@@ -96,15 +105,42 @@ std::string without_comments(const std::string& text) {
   return kept;
 }
 
-RunSnapshot unpack_run(const StoredCheckpoint& stored, const std::string& text) {
-  RunSnapshot run;
-  run.mesh = std::make_shared<Mesh>();
-  const std::string its_text = unpack_checkpoint(stored.bytes, stored.path,
-                                                 run_columns(*run.mesh, run.state, run.simulation, run.run));
-  if (without_comments(its_text) != without_comments(text))
-    throw CaseError(stored.path + ": it is of another case than resolved.toml");
-  run.state.mesh = run.mesh;
-  return run;
+std::vector<Column> field_time_columns(quasi_static::State& state, FieldTimeMemory& memory) {
+  std::vector<Column> all = columns_of(state, "state");
+  for (const Column& column : columns_of(memory, "run")) all.push_back(column);
+  return all;
+}
+
+// Reads the newest checkpoint that can be read into the columns; marks and time are among them.
+bool read_newest(RunFolder& folder, const std::string& text,
+                 const std::function<void(const std::string&)>& say, const std::vector<Column>& columns,
+                 const FolderMarks& marks, const double& time) {
+  std::vector<std::string> refused;
+  for (const StoredCheckpoint& stored : folder.checkpoints(refused)) {
+    try {
+      const std::string its_text = unpack_checkpoint(stored.bytes, stored.path, columns);
+      if (without_comments(its_text) != without_comments(text))
+        throw CaseError(stored.path + ": it is of another case than resolved.toml");
+      folder.go_back(marks, stored.path);
+      for (const std::string& line : refused) say("note: " + line);
+      say(fmt::format("resumed from {}: step {}, time {:.6g} s",
+                      std::filesystem::path(stored.path).filename().string(), stored.step, time));
+      if (stored.program != version) {
+        say(
+            fmt::format("note: crackle {} wrote it and {} goes on: the last bits may differ from those of an "
+                        "uninterrupted run",
+                        stored.program, version));
+      }
+      return true;
+    } catch (const CaseError& error) {
+      refused.emplace_back(error.what());
+    }
+  }
+  if (!refused.empty())
+    throw CaseError(fmt::format("no checkpoint can be used: {}", fmt::join(refused, "; ")));
+  say("there is no checkpoint yet: the run begins anew");
+  folder.go_back({}, "");
+  return false;
 }
 
 }  // namespace
@@ -119,30 +155,22 @@ std::string pack_run(Simulation& simulation, RunMemory& memory, const std::strin
 
 RunSnapshot take_up(RunFolder& folder, const std::string& text,
                     const std::function<void(const std::string&)>& say) {
-  std::vector<std::string> refused;
-  for (const StoredCheckpoint& stored : folder.checkpoints(refused)) {
-    try {
-      RunSnapshot run = unpack_run(stored, text);
-      folder.go_back(run.run.folder, stored.path);
-      for (const std::string& line : refused) say("note: " + line);
-      say(fmt::format("resumed from {}: step {}, time {:.6g} s",
-                      std::filesystem::path(stored.path).filename().string(), stored.step, run.state.time));
-      if (stored.program != version) {
-        say(
-            fmt::format("note: crackle {} wrote it and {} goes on: the last bits may differ from those of an "
-                        "uninterrupted run",
-                        stored.program, version));
-      }
-      return run;
-    } catch (const CaseError& error) {
-      refused.emplace_back(error.what());
-    }
-  }
-  if (!refused.empty())
-    throw CaseError(fmt::format("no checkpoint can be used: {}", fmt::join(refused, "; ")));
-  say("there is no checkpoint yet: the run begins anew");
-  folder.go_back({}, "");
-  return {};
+  RunSnapshot run;
+  run.mesh = std::make_shared<Mesh>();
+  const auto columns = run_columns(*run.mesh, run.state, run.simulation, run.run);
+  if (!read_newest(folder, text, say, columns, run.run.folder, run.state.time)) return {};
+  run.state.mesh = run.mesh;
+  return run;
+}
+
+std::string pack_field_time(quasi_static::State state, FieldTimeMemory memory, const std::string& text) {
+  return pack_checkpoint({version, memory.tally.steps, state.time}, field_time_columns(state, memory), text);
+}
+
+bool take_up_field_time(RunFolder& folder, const std::string& text,
+                        const std::function<void(const std::string&)>& say, quasi_static::State& state,
+                        FieldTimeMemory& memory) {
+  return read_newest(folder, text, say, field_time_columns(state, memory), memory.folder, state.time);
 }
 
 }  // namespace crackle

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crackle/io/output.hpp"
+#include "crackle/solve/quasi_static_state.hpp"
 #include "crackle/solve/simulation.hpp"
 #include "tally.hpp"
 
@@ -46,5 +47,21 @@ std::string pack_run(Simulation& simulation, RunMemory& memory, const std::strin
 /// @throws CaseError when there are checkpoints, and none of them can be used
 RunSnapshot take_up(RunFolder& folder, const std::string& text,
                     const std::function<void(const std::string&)>& say);
+
+/// What `crackle run` keeps beside the state of a run in field time.
+struct FieldTimeMemory {
+  TallyMemory tally;
+  double mass_residual_max = 0.0;  ///< [-]
+  double next_frame = 0.0;         ///< [s]
+  double wall = 0.0;               ///< over all processes of the run [s]
+  FolderMarks folder;
+};
+
+/// The same two for a run in field time, whose mesh follows from its case.
+std::string pack_field_time(quasi_static::State state, FieldTimeMemory memory, const std::string& text);
+/// @return false where there is no checkpoint yet
+bool take_up_field_time(RunFolder& folder, const std::string& text,
+                        const std::function<void(const std::string&)>& say, quasi_static::State& state,
+                        FieldTimeMemory& memory);
 
 }  // namespace crackle

@@ -27,7 +27,7 @@ std::string output_folder(const DfitOptions& options) {
   return record.stem().string() + "_dfit";
 }
 
-/// What a run knows of its rock, and of its fracture at shut-in.
+/// What a run knows of its rock and well.
 DfitSetup known_of(const DfitOptions& options, const PressureRecord& record) {
   DfitSetup known;
   if (record.per_metre) known.inputs.height = 1.0;
@@ -36,16 +36,17 @@ DfitSetup known_of(const DfitOptions& options, const PressureRecord& record) {
     const Case scene = load_case(resolved.string(), {}, {});
     known.inputs.young_modulus = scene.rock.young_modulus;
     known.inputs.poisson_ratio = scene.rock.poisson_ratio;
+    if (!record.per_metre) {
+      known.inputs.height = scene.well.height;
+      known.inputs.well_storage = scene.well.storage;
+    }
+    if (scene.fluid.leak_off == "diffusion") {
+      known.inputs.porosity = scene.rock.porosity;
+      known.inputs.total_compressibility = scene.rock.pore_compressibility;
+      known.inputs.viscosity = scene.rock.pore_viscosity;
+    }
   }
   return known;
-}
-
-/// Half length at shut-in where a simulation tells it and nobody else did.
-void take_half_length(const PressureRecord& record, DfitSetup& setup) {
-  const auto lengths = record.truth.find("half_length_m");
-  if (setup.inputs.half_length || lengths == record.truth.end()) return;
-  const double length = lengths->second[find_injection(record, setup.settings.shut_in).shut_in_sample];
-  if (length > 0.0) setup.inputs.half_length = length;
 }
 
 std::string shown_value(const Pick& pick) {
@@ -81,11 +82,10 @@ int dfit_analyse_command(const DfitOptions& options) {
   const PressureRecord record =
       read_pressure_record(options.record, {options.time, options.pressure, options.rate});
   check_record(record);
-  DfitSetup setup = read_dfit_setup(options.inputs, options.overrides, known_of(options, record));
-  take_half_length(record, setup);
+  const DfitSetup setup = read_dfit_setup(options.inputs, options.overrides, known_of(options, record));
   const DfitAnalysis analysis = analyse_dfit(record, setup.settings, setup.inputs);
   const std::string folder = output_folder(options);
-  write_dfit(folder, record, setup, analysis);
+  write_dfit(folder, record, analysis);
   print_summary(record, analysis, folder);
   return 0;
 }

@@ -84,8 +84,10 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
   if (scene.fluid.leak_off == "carter") {
     s.leak_off = CarterLeakOff{scene.fluid.leak_off_coefficient, s.pore_pressure, 2e6};
   } else if (scene.fluid.leak_off == "diffusion") {
-    s.leak_off = MatrixRock{scene.rock.permeability, scene.rock.porosity, scene.rock.pore_compressibility,
-                            scene.rock.pore_viscosity, s.pore_pressure};
+    MatrixRock rock{scene.rock.permeability, scene.rock.porosity, scene.rock.pore_compressibility,
+                    scene.rock.pore_viscosity, s.pore_pressure};
+    rock.cells = diffusion_cells(rock, scene.run.end_time);
+    s.leak_off = rock;
   }
   // Of one wing, per metre of height.
   const double wings = 2.0 * scene.well.height;
@@ -154,7 +156,6 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
         fmt::format("leak-off: Carter; time scale of the change from toughness to leak-off {:.2g} s",
                     rate * rate * std::pow(kp, 4) / std::pow(modulus, 4) / std::pow(cp, 6)));
   } else if (const auto* rock = std::get_if<MatrixRock>(&stage.leak_off)) {
-    const double reach = MatrixDiffusion(*rock).reach();
     const double depth = 2.0 * std::sqrt(rock->permeability * scene.run.end_time /
                                          (rock->porosity * rock->compressibility * rock->viscosity));
     notes.push_back(
@@ -163,8 +164,6 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
                     depth,
                     confinement * std::sqrt(rock->permeability * rock->porosity * rock->compressibility /
                                             (M_PI * rock->viscosity))));
-    if (depth > reach)
-      notes.push_back(fmt::format("warning: the grid of the diffusion ends {:.2g} m from the face", reach));
   } else {
     notes.push_back("leak-off: none");
   }

@@ -340,9 +340,6 @@ int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folde
   folder.log(regime.reason);
   if (!options.quiet) print_line(regime.reason);
   try {
-    if (regime.quasi_static && !options.resume.empty())
-      throw CaseError(options.resume +
-                      ": a run in field time keeps no checkpoints; run its resolved.toml again");
     const int code = regime.quasi_static ? run_quasi_static(options, scene, folder, status)
                                          : Run(options, scene, folder, status).go();
     status.finish(code == 0 ? "done" : "interrupted");

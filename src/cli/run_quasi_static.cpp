@@ -8,13 +8,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+#include <memory>
 
+#include "checkpoint.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
 #include "progress.hpp"
 #include "quasi_static_scene.hpp"
 #include "signals.hpp"
+#include "tally.hpp"
 
 namespace crackle {
 namespace {
@@ -25,13 +27,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-FieldTimeRow history_row(const QuasiStaticRow& row, const Case& scene) {
+FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, const Case& scene) {
   constexpr double wings = 2.0;
   FieldTimeRow h;
   h.time = row.time;
   h.time_step = row.step;
   h.pressure = row.well_pressure;
-  h.rate = row.rate * wings * scene.well.height;
+  h.rate = stage.scene().pump.rate(row.time) * wings * scene.well.height;
   h.perforation_rate = row.perforation_rate * wings;
   h.fracture_pressure = row.fracture_pressure;
   h.least_pressure = row.least_pressure;
@@ -47,7 +49,18 @@ FieldTimeRow history_row(const QuasiStaticRow& row, const Case& scene) {
   h.mean_opening = row.mean_opening;
   h.contact_fraction = row.contact_fraction;
   h.closure_stress = scene.rock.pore_pressure - scene.stress.yy;
-  h.energy_fracture = 2.0 * row.dissipated;
+  const quasi_static::Energies& e = row.energies;
+  h.work_pump = wings * e.pumped;
+  h.energy_well = wings * e.well;
+  h.energy_entry = wings * e.entry;
+  h.energy_viscous = wings * e.viscous;
+  h.energy_leaked = wings * e.leaked;
+  h.energy_fluid = wings * e.fluid;
+  h.energy_strain = wings * e.strain;
+  h.energy_confinement = wings * e.confinement;
+  h.energy_faces = wings * e.faces;
+  h.energy_fracture = wings * e.fracture;
+  h.energy_residual = e.residual;
   h.iterations = row.iterations;
   return h;
 }
@@ -105,96 +118,174 @@ FractureFrame fracture_frame(const QuasiStatic& stage) {
   return frame;
 }
 
+// One process of a run in field time: from the beginning or a checkpoint to the end or an interruption.
+class FieldTimeRun {
+ public:
+  FieldTimeRun(const RunOptions& options, const Case& scene, RunFolder& folder, Status& status)
+      : options_(options),
+        scene_(scene),
+        folder_(folder),
+        status_(status),
+        tally_(scene.run.end_time),
+        text_(resolved_toml(scene)) {}
+
+  /// @return exit code
+  int go() {
+    heed_requests();
+    folder_.set_field_time();
+    say(fmt::format("crackle {}: {}", version, scene_.title.empty() ? scene_.file : scene_.title));
+    begin();
+    heed_stops();
+    Progress progress(scene_.run.end_time, options_.quiet);
+    try {
+      while (!at_end() && !stop_requested()) {
+        step();
+        progress.show(now());
+        status_.show(now());
+        if (checkpoint_is_due()) write_checkpoint();
+      }
+    } catch (const NumericalError& error) {
+      exit_ = error.what();
+      finish();
+      progress.finish(now());
+      folder_.log(exit_);
+      throw;
+    }
+    if (!at_end()) {
+      exit_ = "interrupted";
+      write_checkpoint();
+    }
+    const RunSummary summary = finish();
+    progress.finish(now());
+    if (at_end()) folder_.remove_checkpoints();
+    report(summary);
+    return static_cast<int>(at_end() ? ExitCode::done : ExitCode::interrupted);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void say(const std::string& line) {
+    folder_.log(line);
+    if (!options_.quiet) fmt::print(stderr, "{}\n", line);
+  }
+  bool at_end() const { return stage_->time() >= scene_.run.end_time; }
+  Progress::Now now() const {
+    return {row_.time, row_.well_pressure, tally_.memory().steps,
+            static_cast<std::int64_t>(stage_->state().cells.size())};
+  }
+
+  void begin() {
+    const QuasiStaticScene stage =
+        make_quasi_static_scene(scene_, std::make_shared<const Mesh>(make_quasi_static_mesh(scene_)));
+    triangles_ = stage.mesh->triangle_count();
+    say(fmt::format("mesh: {} triangles, {} vertices, half of the domain", triangles_,
+                    stage.mesh->vertex_count()));
+    for (const std::string& line : quasi_static_notes(scene_, stage)) say(line);
+    quasi_static::State state;
+    const bool resumed = !options_.resume.empty() &&
+                         take_up_field_time(
+                             folder_, text_, [&](const std::string& line) { say(line); }, state, memory_);
+    stage_ = resumed ? std::make_unique<QuasiStatic>(stage, std::move(state))
+                     : std::make_unique<QuasiStatic>(stage);
+    row_ = stage_->row();
+    if (resumed) {
+      tally_ = Tally(scene_.run.end_time, memory_.tally);
+      return;
+    }
+    say(fmt::format("rock factorised, initial fracture in equilibrium ({:.1f} s)", seconds_since(start_)));
+    folder_.write_resolved(scene_);
+    folder_.append_field_time(history_row(*stage_, row_, scene_));
+  }
+
+  void step() {
+    if (stage_->time() >= memory_.next_frame) {
+      write_frame();
+      const double every = scene_.output.fields_every;
+      memory_.next_frame += every * std::ceil((stage_->time() - memory_.next_frame) / every + 1e-12);
+    }
+    row_ = stage_->step(scene_.run.end_time);
+    folder_.append_field_time(history_row(*stage_, row_, scene_));
+    memory_.mass_residual_max =
+        std::max(memory_.mass_residual_max, std::abs(row_.mass_defect) / std::max(row_.injected, 1e-12));
+    tally_.pressure(row_.time, row_.well_pressure, row_.step);
+    tally_.residual(row_.energies.residual);
+  }
+
+  void write_frame() {
+    folder_.write_frame(field_frame(*stage_, scene_.output.fields), fracture_frame(*stage_));
+  }
+
+  bool checkpoint_is_due() {
+    if (take_checkpoint_request()) return true;
+    return scene_.output.checkpoint_every > 0.0 &&
+           seconds_since(last_checkpoint_) >= scene_.output.checkpoint_every;
+  }
+
+  FieldTimeMemory memory_now() const {
+    FieldTimeMemory memory = memory_;
+    memory.tally = tally_.memory();
+    memory.wall += seconds_since(start_);
+    return memory;
+  }
+
+  void write_checkpoint() {
+    FieldTimeMemory memory = memory_now();
+    memory.folder = folder_.marks();
+    folder_.write_checkpoint(pack_field_time(stage_->state(), std::move(memory), text_));
+    last_checkpoint_ = Clock::now();
+  }
+
+  RunSummary finish() {
+    write_frame();
+    RunSummary summary = tally_.finish();
+    summary.triangles = triangles_;
+    summary.steps = tally_.memory().steps;
+    summary.broken_length = summary.extent_x = 2.0 * row_.broken_length;
+    summary.mass_residual_max = memory_.mass_residual_max;
+    summary.wall = memory_now().wall;
+    summary.core_ns_per_triangle_step =
+        1e9 * summary.wall /
+        (static_cast<double>(triangles_) * static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
+    summary.exit = exit_;
+    folder_.write_quakeml({}, scene_);
+    folder_.write_summary(summary);
+    return summary;
+  }
+
+  void report(const RunSummary& summary) {
+    say(
+        fmt::format("{} steps, {} Newton iterations, {} steps taken back; mass balance {:.1e} of what was "
+                    "injected, energy residual {:.1e}; {:.1f} s",
+                    summary.steps, stage_->newton_iterations(), stage_->rejected_steps(),
+                    summary.mass_residual_max, summary.energy_residual_max, summary.wall));
+    say(fmt::format(
+        "highest pressure {:.3f} MPa at {:.4g} s; fracture of {:.2f} m (both wings), {:.3f} mm open "
+        "at the well at the end",
+        1e-6 * summary.breakdown_pressure, summary.breakdown_time, summary.broken_length,
+        1e3 * row_.opening));
+    say(fmt::format("{}: {}", exit_, folder_.path()));
+    if (!at_end()) say("to go on: crackle run --resume " + folder_.path());
+  }
+
+  const RunOptions& options_;
+  const Case& scene_;
+  RunFolder& folder_;
+  Status& status_;
+  std::unique_ptr<QuasiStatic> stage_;
+  QuasiStaticRow row_;
+  Tally tally_;
+  FieldTimeMemory memory_;  // of the processes before this one
+  std::string text_;        // of the resolved case
+  std::string exit_ = "done";
+  Index triangles_ = 0;
+  Clock::time_point start_ = Clock::now(), last_checkpoint_ = start_;
+};
+
 }  // namespace
 
 int run_quasi_static(const RunOptions& options, const Case& scene, RunFolder& folder, Status& status) {
-  heed_stops();
-  folder.set_field_time();
-  const auto say = [&](const std::string& line) {
-    folder.log(line);
-    if (!options.quiet) fmt::print(stderr, "{}\n", line);
-  };
-  const auto start = std::chrono::steady_clock::now();
-  const QuasiStaticScene stage_scene =
-      make_quasi_static_scene(scene, std::make_shared<const Mesh>(make_quasi_static_mesh(scene)));
-  const Index triangles = stage_scene.mesh->triangle_count();
-  say(fmt::format("mesh: {} triangles, {} vertices, half of the domain", triangles,
-                  stage_scene.mesh->vertex_count()));
-  for (const std::string& line : quasi_static_notes(scene, stage_scene)) say(line);
-  QuasiStatic stage(stage_scene);
-  say(fmt::format("rock factorised, initial fracture in equilibrium ({:.1f} s)", seconds_since(start)));
-  folder.write_resolved(scene);
-  const auto write_frame = [&] {
-    folder.write_frame(field_frame(stage, scene.output.fields), fracture_frame(stage));
-  };
-
-  const double late = 0.9 * scene.run.end_time;
-  RunSummary summary;
-  summary.triangles = triangles;
-  summary.magnitude_min = summary.magnitude_max = std::numeric_limits<double>::quiet_NaN();
-  double late_sum = 0.0, late_time = 0.0, next_frame = 0.0, worst = 0.0;
-  QuasiStaticRow row;
-  Progress progress(scene.run.end_time, options.quiet);
-  const auto now = [&] {
-    return Progress::Now{row.time, row.well_pressure, summary.steps,
-                         static_cast<std::int64_t>(stage.cells().size())};
-  };
-  const auto finish = [&](const std::string& exit) {
-    write_frame();
-    if (late_time > 0.0) summary.propagation_pressure = late_sum / late_time;
-    summary.broken_length = 2.0 * row.broken_length;
-    summary.extent_x = 2.0 * row.broken_length;
-    summary.energy_residual_max = std::numeric_limits<double>::quiet_NaN();
-    summary.mass_residual_max = worst;
-    summary.wall = seconds_since(start);
-    summary.core_ns_per_triangle_step =
-        1e9 * summary.wall /
-        (static_cast<double>(triangles) * static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
-    summary.exit = exit;
-    folder.write_quakeml({}, scene);
-    folder.write_summary(summary);
-    progress.finish(now());
-  };
-  std::string exit = "done";
-  try {
-    while (stage.time() < scene.run.end_time && !stop_requested()) {
-      if (stage.time() >= next_frame) {
-        write_frame();
-        next_frame += scene.output.fields_every *
-                      std::ceil((stage.time() - next_frame) / scene.output.fields_every + 1e-12);
-      }
-      row = stage.step(scene.run.end_time);
-      folder.append_field_time(history_row(row, scene));
-      worst = std::max(worst, std::abs(row.mass_defect) / std::max(row.injected, 1e-12));
-      if (row.well_pressure > summary.breakdown_pressure || summary.steps == 0) {
-        summary.breakdown_pressure = row.well_pressure;
-        summary.breakdown_time = row.time;
-      }
-      if (row.time >= late) {
-        late_sum += row.well_pressure * row.step;
-        late_time += row.step;
-      }
-      ++summary.steps;
-      progress.show(now());
-      status.show(now());
-    }
-  } catch (const NumericalError& error) {
-    finish(error.what());
-    folder.log(error.what());
-    throw;
-  }
-  if (stage.time() < scene.run.end_time) exit = "interrupted";
-  finish(exit);
-  say(fmt::format(
-      "{} steps, {} Newton iterations, {} steps taken back; mass balance {:.1e} of what was injected; "
-      "{:.1f} s",
-      summary.steps, stage.newton_iterations(), stage.rejected_steps(), worst, summary.wall));
-  say(fmt::format(
-      "highest pressure {:.3f} MPa at {:.4g} s; fracture of {:.2f} m (both wings), {:.3f} mm open at the "
-      "well at the end",
-      1e-6 * summary.breakdown_pressure, summary.breakdown_time, summary.broken_length, 1e3 * row.opening));
-  say(fmt::format("{}: {}", exit, folder.path()));
-  return exit == "done" ? 0 : static_cast<int>(ExitCode::interrupted);
+  return FieldTimeRun(options, scene, folder, status).go();
 }
 
 }  // namespace crackle

@@ -34,6 +34,15 @@ TractionSlope InterfaceLaw::traction(double opening, double max_opening, double 
   return t;
 }
 
+double InterfaceLaw::stored(double opening, double max_opening, double in_situ) const {
+  const double largest = std::max(opening, max_opening);
+  if (largest <= elastic_) return opening * (in_situ + 0.5 * (strength_ - in_situ) / elastic_ * opening);
+  const double d = damage(largest);
+  // the bond's in-situ stress was given up on the elastic branch
+  return 0.5 * in_situ * elastic_ + 0.5 * strength_ * law_->softening(d) * opening * opening / largest +
+         closure_.energy(opening, largest);
+}
+
 double InterfaceLaw::dissipated(double max_opening) const {
   if (max_opening <= elastic_) return 0.0;
   const double d = damage(max_opening);

@@ -15,14 +15,27 @@ CarterLeakOff::Volume CarterLeakOff::volume(double from, double to, double press
   return {full * share, full / cut_off};
 }
 
-MatrixDiffusion::MatrixDiffusion(const MatrixRock& rock, int cells) : rock_(rock) {
-  double width = 1e-4;
+namespace {
+
+constexpr double first_width = 1e-4, growth = 1.25;
+
+}  // namespace
+
+int diffusion_cells(const MatrixRock& rock, double time) {
+  const double reach =
+      6.0 * std::sqrt(rock.permeability * time / (rock.porosity * rock.compressibility * rock.viscosity));
+  const double cells = std::log1p(reach * (growth - 1.0) / first_width) / std::log(growth);
+  return std::max(40, static_cast<int>(std::ceil(cells)));
+}
+
+MatrixDiffusion::MatrixDiffusion(const MatrixRock& rock) : rock_(rock) {
+  double width = first_width;
   double before = 0.0;
-  for (int i = 0; i < cells; ++i) {
+  for (int i = 0; i < rock.cells; ++i) {
     width_.push_back(width);
     transmissibility_.push_back(rock.permeability / rock.viscosity / (0.5 * (before + width)));
     before = width;
-    width *= 1.25;
+    width *= growth;
   }
 }
 
@@ -46,20 +59,20 @@ void MatrixDiffusion::eliminate(double dt, std::span<const double> profile, std:
   }
 }
 
-MatrixDiffusion::Response MatrixDiffusion::response(const Profile& profile, double dt) const {
+MatrixDiffusion::Response MatrixDiffusion::response(std::span<const double> profile, double dt) const {
   std::vector<double> a, b;
   eliminate(dt, profile, a, b);
   return {dt * transmissibility_[0] * (1.0 - a[0]), -dt * transmissibility_[0] * b[0]};
 }
 
-void MatrixDiffusion::advance(Profile& profile, double dt, double pressure) const {
+void MatrixDiffusion::advance(std::span<double> profile, double dt, double pressure) const {
   std::vector<double> a, b;
   eliminate(dt, profile, a, b);
   double before = pressure;
   for (std::size_t i = 0; i < profile.size(); ++i) before = profile[i] = a[i] * before + b[i];
 }
 
-double MatrixDiffusion::stored(const Profile& profile) const {
+double MatrixDiffusion::stored(std::span<const double> profile) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < profile.size(); ++i)
     sum += rock_.porosity * rock_.compressibility * width_[i] * (profile[i] - rock_.reservoir_pressure);

@@ -63,7 +63,7 @@ void add_inputs(const DfitInputs& in, JsonObject& object) {
   object.add("given_reservoir_pressure_Pa", in.reservoir_pressure.value_or(nan));
 }
 
-std::string analysis_json(const PressureRecord& record, const DfitSetup& setup, const DfitAnalysis& a) {
+std::string analysis_json(const PressureRecord& record, const DfitAnalysis& a) {
   using Flow = AfterClosure::Flow;
   const FallOff& f = a.fall_off;
   JsonObject object;
@@ -90,7 +90,7 @@ std::string analysis_json(const PressureRecord& record, const DfitSetup& setup, 
   object.add("after_closure_loglog_slope", a.after_closure.loglog_slope);
   object.add("after_closure_slope", a.after_closure.flow == Flow::none ? nan : a.after_closure.slope);
   object.add("after_closure_from_s", a.after_closure.flow == Flow::none ? nan : a.after_closure.from);
-  add_inputs(setup.inputs, object);
+  add_inputs(a.inputs, object);
   return object.text();
 }
 
@@ -135,8 +135,7 @@ std::string record_csv(const PressureRecord& record) {
 
 }  // namespace
 
-void write_dfit(const std::string& folder, const PressureRecord& record, const DfitSetup& setup,
-                const DfitAnalysis& analysis) {
+void write_dfit(const std::string& folder, const PressureRecord& record, const DfitAnalysis& analysis) {
   namespace fs = std::filesystem;
   std::error_code reason;
   fs::create_directories(folder, reason);
@@ -148,7 +147,7 @@ void write_dfit(const std::string& folder, const PressureRecord& record, const D
   const auto file = [&](const char* name) { return (fs::path(folder) / name).string(); };
   write_whole_file(file("record.csv"), record_csv(record));
   write_whole_file(file("fall_off.csv"), fall_off_csv(record, analysis));
-  write_whole_file(file("analysis.json"), analysis_json(record, setup, analysis));
+  write_whole_file(file("analysis.json"), analysis_json(record, analysis));
   write_whole_file(file("picks.json"), picks_json(analysis.picks));
 }
 

@@ -21,21 +21,24 @@ std::string history_line(const HistoryRow& row) {
 }
 
 std::string field_time_header() {
-  return "time_s,time_step_s,pressure_Pa,rate_m3_s,perforation_rate_m2_s,fracture_"
-         "pressure_Pa,"
-         "least_pressure_Pa,injected_m2,well_stored_m2,fracture_volume_m2,leaked_m2,mass_defect_m2,broken_"
-         "length_m,"
-         "damaged_length_m,half_length_m,opening_m,mean_opening_m,contact_fraction,closure_stress_Pa,energy_"
-         "fracture_J_m,iterations\n";
+  return "time_s,time_step_s,pressure_Pa,rate_m3_s,perforation_rate_m2_s,fracture_pressure_Pa,"
+         "least_pressure_Pa,injected_m2,well_stored_m2,fracture_volume_m2,leaked_m2,mass_defect_m2,"
+         "broken_length_m,damaged_length_m,half_length_m,opening_m,mean_opening_m,contact_fraction,"
+         "closure_stress_Pa,"
+         "work_pump_J_m,energy_well_J_m,energy_entry_J_m,energy_viscous_J_m,energy_leaked_J_m,"
+         "energy_fluid_J_m,energy_strain_J_m,energy_confinement_J_m,energy_faces_J_m,energy_fracture_J_m,"
+         "energy_residual,iterations\n";
 }
 
-std::string field_time_line(const FieldTimeRow& row) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.time,
-                     row.time_step, row.pressure, row.rate, row.perforation_rate, row.fracture_pressure,
-                     row.least_pressure, row.injected, row.well_stored, row.fracture_volume, row.leaked,
-                     row.mass_defect, row.broken_length, row.damaged_length, row.half_length, row.opening,
-                     row.mean_opening, row.contact_fraction, row.closure_stress, row.energy_fracture,
-                     row.iterations);
+std::string field_time_line(const FieldTimeRow& r) {
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+      r.time, r.time_step, r.pressure, r.rate, r.perforation_rate, r.fracture_pressure, r.least_pressure,
+      r.injected, r.well_stored, r.fracture_volume, r.leaked, r.mass_defect, r.broken_length,
+      r.damaged_length, r.half_length, r.opening, r.mean_opening, r.contact_fraction, r.closure_stress,
+      r.work_pump, r.energy_well, r.energy_entry, r.energy_viscous, r.energy_leaked, r.energy_fluid,
+      r.energy_strain, r.energy_confinement, r.energy_faces, r.energy_fracture, r.energy_residual,
+      r.iterations);
 }
 
 }  // namespace crackle

@@ -37,8 +37,10 @@ struct DfitInputs {
   std::optional<double> young_modulus;  ///< E [Pa]
   std::optional<double> poisson_ratio;  ///< [-]
   Geometry geometry = Geometry::kgd;
-  std::optional<double> height;                 ///< H [m]
-  std::optional<double> half_length;            ///< l at shut-in [m]
+  std::optional<double> height;  ///< H [m]
+  /// l [m]; of a simulated test, the mean of its half_length_m over the window of pick_isip(): tips go on
+  /// after shut-in
+  std::optional<double> half_length;
   std::optional<double> fracture_stiffness;     ///< S_f in place of the above [Pa/m]
   std::optional<double> well_storage;           ///< C_w, volume a pressure [m3/Pa]
   std::optional<double> porosity;               ///< [-]
@@ -63,11 +65,11 @@ Pick pick_isip(const FallOff& f, const Pick& contact);
 /// errors, or where pressure falls by less than 2 % of the fall-off meanwhile.
 Pick pick_contact(const FallOff& f);
 
-/// Last point where G dp/dG over G is within a tenth of its tangent from the origin (Barree, Barree and Craig
-/// 2009, SPE 107877): -dp/dG is largest on the tangent. Points before the contact, and without one before G =
-/// 1 or a quarter of the last G, are not asked. None where -dp/dG ends above 0.8 of its largest value;
-/// without a contact also where it is not within a tenth of it while G grows by half. The window of the
-/// derivative moves this pick later where pressure bends sharply.
+/// Last point where G dp/dG over G is within a fifth of its tangent from the origin (Barree, Barree and Craig
+/// 2009, SPE 107877): -dp/dG is largest on the tangent. What leaves it by less is not seen on a plot. Points
+/// before the contact, and without one before G = 1 or a quarter of the last G, are not asked. None where
+/// -dp/dG ends above 0.8 of its largest value; without a contact also where it is not within a fifth of it
+/// while G grows by half. The window of the derivative moves this pick later where pressure bends sharply.
 Pick pick_closure_tangent(const FallOff& f, const Pick& contact);
 /// The same on √Δt, with √Δt dp/d√Δt.
 Pick pick_closure_root(const FallOff& f, const Pick& contact);
@@ -117,6 +119,7 @@ Pick pick_leak_off_type(const FallOff& f, const Pick& contact, const Pick& tange
 
 /// A whole analysis.
 struct DfitAnalysis {
+  DfitInputs inputs;  ///< with the half length of a simulated test
   Injection injection;
   FallOff fall_off;
   AfterClosure after_closure;

@@ -38,6 +38,12 @@ struct Closure {
     const double scale = closure_stress / 9.0;
     return {-scale * (free / opening - 1.0), scale * free / (opening * opening)};
   }
+  /// Energy [J/m2] of asperities pressed together: −∫ t dw from where they touch.
+  double energy(double opening, double max_opening) const {
+    const double free = std::min(residual_aperture, max_opening);
+    if (opening >= free) return 0.0;
+    return closure_stress / 9.0 * (free * std::log(free / opening) - (free - opening));
+  }
 };
 
 /// Tensile strength [Pa] that a mesh of edge length h [m] can resolve at the same fracture energy:

@@ -36,6 +36,8 @@ class InterfaceLaw {
   /// Traction at an opening [m]. @param max_opening before this step [m] @param in_situ t₀ [Pa]
   TractionSlope traction(double opening, double max_opening, double in_situ) const;
 
+  /// Energy per area that an opening holds [J/m2]: d(stored + dissipated) = t dw, on any way.
+  double stored(double opening, double max_opening, double in_situ) const;
   /// Energy dissipated per area by a point that has been open by `max_opening` [J/m2].
   double dissipated(double max_opening) const;
 

@@ -43,6 +43,14 @@ struct FractureFluid {
     const double w2 = aperture * aperture;
     return {w2 * aperture / (12.0 * viscosity), w2 / (4.0 * viscosity)};
   }
+  /// ∫ dp ρ₀/ρ from p_ref [Pa]: work that a unit of mass (volume at ρ₀) takes along.
+  double enthalpy(double pressure) const {
+    const double liquid = std::max(pressure, cavitation_pressure);
+    const double h = std::log1p(compressibility * (liquid - reference_pressure)) / compressibility;
+    if (pressure >= cavitation_pressure) return h;
+    return h - cavitation_range / density(cavitation_pressure).value *
+                   std::expm1((cavitation_pressure - pressure) / cavitation_range);
+  }
   /// ρ/ρ₀ [-], by the pressure [Pa].
   ValueSlope density(double pressure) const {
     if (pressure >= cavitation_pressure)

@@ -34,17 +34,21 @@ struct MatrixRock {
   double compressibility = 0.0;     ///< c_t of pores and their fluid [1/Pa]
   double viscosity = 0.0;           ///< μ of the fluid in the pores [Pa s]
   double reservoir_pressure = 0.0;  ///< p_res [Pa]
+  int cells = 40;                   ///< of the grid normal to a face; 40 reach 3 m, three more twice as far
 };
+
+/// Cells of a grid that what leaks off does not feel the end of until `time` [s]: it reaches 6 √(D t), 40 at
+/// least.
+int diffusion_cells(const MatrixRock& rock, double time);
 
 /// Implicit diffusion normal to a face on a graded line of cells: first 0.1 mm, each next one longer
 /// by a quarter. One grid for all faces; a face's profile is kept by the caller.
 class MatrixDiffusion {
  public:
-  /// @param cells 40 reach 3 m
-  explicit MatrixDiffusion(const MatrixRock& rock, int cells = 40);
+  explicit MatrixDiffusion(const MatrixRock& rock);
 
-  using Profile = std::vector<double>;  ///< pressure of every cell [Pa]
-  Profile initial() const { return Profile(width_.size(), rock_.reservoir_pressure); }
+  /// A profile: pressure of every cell [Pa].
+  std::size_t cells() const { return width_.size(); }
   double reach() const;  ///< depth of the last cell [m]
 
   /// A backward Euler step of length dt [s]: volume per area [m] that enters the rock through a face at
@@ -52,11 +56,11 @@ class MatrixDiffusion {
   struct Response {
     double slope = 0.0, constant = 0.0;
   };
-  Response response(const Profile& profile, double dt) const;
+  Response response(std::span<const double> profile, double dt) const;
   /// Ends the step with the face at `pressure`.
-  void advance(Profile& profile, double dt, double pressure) const;
+  void advance(std::span<double> profile, double dt, double pressure) const;
   /// Volume per area that the rock holds above its initial state [m].
-  double stored(const Profile& profile) const;
+  double stored(std::span<const double> profile) const;
 
  private:
   // p_i = a_i p_{i−1} + b_i from the deep end: a_i depends on dt alone.

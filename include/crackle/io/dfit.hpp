@@ -44,7 +44,6 @@ std::string dfit_keys_text();
 /// Writes into a folder, made if needed, over an earlier analysis there: picks.json, a list of picks;
 /// analysis.json, what else was found and used; fall_off.csv, the columns that are plotted, one row a bin of
 /// 2 % in time (with the truth, if there is one); record.csv, the whole record in SI. @throws CaseError
-void write_dfit(const std::string& folder, const PressureRecord& record, const DfitSetup& setup,
-                const DfitAnalysis& analysis);
+void write_dfit(const std::string& folder, const PressureRecord& record, const DfitAnalysis& analysis);
 
 }  // namespace crackle

@@ -47,8 +47,11 @@ struct FieldTimeRow {
   double opening = 0.0, mean_opening = 0.0;          ///< at the well, of the whole [m]
   double contact_fraction = 0.0;                     ///< of the faces [-]
   double closure_stress = 0.0;                       ///< total compression across the fracture [Pa]
-  double energy_fracture = 0.0;                      ///< [J/m]
-  int iterations = 0;                                ///< of Newton
+  double work_pump = 0.0, energy_well = 0.0, energy_entry = 0.0, energy_viscous = 0.0, energy_leaked = 0.0,
+         energy_fluid = 0.0, energy_strain = 0.0, energy_confinement = 0.0, energy_faces = 0.0,
+         energy_fracture = 0.0;  ///< [J/m]
+  double energy_residual = 0.0;  ///< [-]
+  int iterations = 0;            ///< of Newton
 };
 
 /// A named value per triangle or per fracture segment; components = 1, 2 or 3 (xx, yy, xy).
@@ -86,7 +89,7 @@ struct RunSummary {
   double broken_length = 0.0;         ///< [m]
   double extent_x = 0.0;              ///< of the broken elements [m]
   double extent_y = 0.0;              ///< [m]
-  double energy_residual_max = 0.0;   ///< [-]; NaN in field time, which keeps a ledger of mass
+  double energy_residual_max = 0.0;   ///< [-]
   double mass_residual_max =
       std::numeric_limits<double>::quiet_NaN();  ///< over the injected [-]; in field time
   std::int64_t triangles = 0;

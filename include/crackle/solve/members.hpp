@@ -3,6 +3,7 @@
 // What a simulation keeps beside its State, by name: goes into a checkpoint too.
 #pragma once
 
+#include "crackle/solve/quasi_static_state.hpp"
 #include "crackle/solve/simulation.hpp"
 #include "crackle/state/members.hpp"
 
@@ -49,4 +50,77 @@ void members(SimulationMemory& m, V&& v) {
   v("boundary", m.boundary);
 }
 
+namespace quasi_static {
+
+template <class V>
+void members(Point& p, V&& v) {
+  v("max_opening", p.max_opening);
+  v("in_situ", p.in_situ);
+}
+
+template <class V>
+void members(Cell& c, V&& v) {
+  v("edge", c.edge);
+  v("inner", c.inner);
+  v("parent", c.parent);
+  v("points", c.points);
+  v("wet", c.wet);
+  v("pressure", c.pressure);
+  v("mass", c.mass);
+  v("exposed", c.exposed);
+  v("leaked", c.leaked);
+}
+
+template <class V>
+void members(Inlet& i, V&& v) {
+  v("cell", i.cell);
+  v("rate", i.rate);
+}
+
+template <class V>
+void members(Tip& t, V&& v) {
+  v("wing", t.wing);
+  v("cell", t.cell);
+}
+
+template <class V>
+void members(Energies& e, V&& v) {
+  v("pumped", e.pumped);
+  v("well", e.well);
+  v("entry", e.entry);
+  v("viscous", e.viscous);
+  v("leaked", e.leaked);
+  v("fluid", e.fluid);
+  v("strain", e.strain);
+  v("confinement", e.confinement);
+  v("faces", e.faces);
+  v("fracture", e.fracture);
+  v("residual", e.residual);
+}
+
+template <class V>
+void members(State& s, V&& v) {
+  v("time", s.time);
+  v("step", s.step);
+  v("event", s.event);
+  v("jumps", s.jumps);
+  v("cells", s.cells);
+  v("matrix", s.matrix);
+  v("inlets", s.inlets);
+  v("tips", s.tips);
+  v("well_pressure", s.well_pressure);
+  v("well_before", s.well_before);
+  v("connected", s.connected);
+  v("breakdown_time", s.breakdown_time);
+  v("injected", s.injected);
+  v("leaked", s.leaked);
+  v("initial_fracture", s.initial_fracture);
+  v("initial_well", s.initial_well);
+  v("energies", s.energies);
+  v("initial", s.initial);
+  v("rejected", s.rejected);
+  v("iterations", s.iterations);
+}
+
+}  // namespace quasi_static
 }  // namespace crackle

@@ -26,6 +26,7 @@
 #include "crackle/fluid/well.hpp"
 #include "crackle/solid/stiffness.hpp"
 #include "crackle/solve/fracture_path.hpp"
+#include "crackle/solve/quasi_static_state.hpp"
 
 namespace crackle {
 
@@ -85,8 +86,9 @@ struct QuasiStaticRow {
   double opening = 0.0;           ///< at the well [m]
   double mean_opening = 0.0;      ///< of fluid-filled cells [m]
   double contact_fraction = 0.0;  ///< of their length, where faces touch [-]
-  double dissipated = 0.0;        ///< by fracture [J/m]
-  int iterations = 0;             ///< of Newton, in this step
+  double dissipated = 0.0;        ///< by fracture, in all [J/m]
+  quasi_static::Energies energies;
+  int iterations = 0;  ///< of Newton, in this step
 };
 
 /// An edge of the fracture as it is now.
@@ -105,10 +107,15 @@ class QuasiStatic {
   /// Factorises the rock and finds the equilibrium of the initial fracture at pore pressure.
   /// @throws CaseError for a scene that cannot run, NumericalError
   explicit QuasiStatic(QuasiStaticScene scene);
+  /// Goes on from a state of the same scene, with the same bits.
+  QuasiStatic(QuasiStaticScene scene, quasi_static::State state);
   ~QuasiStatic();
 
   const QuasiStaticScene& scene() const;
   double time() const;
+  const quasi_static::State& state() const;
+  /// The state now, without what belongs to a step.
+  QuasiStaticRow row() const;
   /// One step of the length that suits, ending at `end` [s] at the latest.
   /// @throws NumericalError when no step converges, or the fracture comes to the end of its path
   QuasiStaticRow step(double end);
@@ -123,8 +130,8 @@ class QuasiStatic {
   std::vector<Sym2> stress(const std::vector<Vec2>& corner_displacement) const;
   /// Strength that the mesh resolves [Pa], the least of the path so far.
   double strength() const;
-  int rejected_steps() const;
-  int newton_iterations() const;
+  std::int64_t rejected_steps() const { return state().rejected; }
+  std::int64_t newton_iterations() const { return state().iterations; }
 
  private:
   class Solver;

@@ -305,6 +305,12 @@ Index pressure_source(const Equations& equations, const State& state, Index cell
   return parent >= 0 && state.cells[at(parent)].wet ? parent : -1;
 }
 
+std::span<const double> profile(const Equations& equations, const State& state, Index cell) {
+  if (!equations.matrix) return {};
+  const std::size_t n = equations.matrix->cells();
+  return std::span(state.matrix).subspan(at(cell) * n, n);
+}
+
 ValueSlope leak(const Equations& equations, const State& state, Index cell, double pressure, double dt) {
   const Cell& c = state.cells[at(cell)];
   if (state.time < c.exposed) return {};
@@ -315,7 +321,7 @@ ValueSlope leak(const Equations& equations, const State& state, Index cell, doub
     return {faces * v.value, faces * v.slope};
   }
   if (equations.matrix) {
-    const auto r = equations.matrix->response(c.matrix, dt);
+    const auto r = equations.matrix->response(profile(equations, state, cell), dt);
     return {faces * (r.slope * pressure + r.constant), faces * r.slope};
   }
   return {};

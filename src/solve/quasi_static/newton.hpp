@@ -4,12 +4,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "crackle/cohesive/interface.hpp"
 #include "crackle/solve/condensation.hpp"
 #include "crackle/solve/quasi_static.hpp"
-#include "state.hpp"
+#include "crackle/solve/quasi_static_state.hpp"
 
 namespace crackle::quasi_static {
 
@@ -28,6 +29,9 @@ std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& 
 /// Pressure on the faces of a path edge [Pa]: of its own cell, or as the wetting rule says.
 /// @return the cell that gives it, -1: the pore pressure
 Index pressure_source(const Equations& equations, const State& state, Index cell);
+
+/// Pressures in the rock beside a cell [Pa]; empty without diffusion.
+std::span<const double> profile(const Equations& equations, const State& state, Index cell);
 
 /// Volume [m2] that leaks from a cell in a step, and its derivative by the pressure [m2/Pa].
 ValueSlope leak(const Equations& equations, const State& state, Index cell, double pressure, double dt);

@@ -10,8 +10,8 @@
 
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/estimates.hpp"
+#include "ledger.hpp"
 #include "newton.hpp"
-#include "state.hpp"
 
 namespace crackle {
 
@@ -48,11 +48,21 @@ class QuasiStatic::Solver {
         rock_(scene_.mesh, bulk_, scene_.held),
         equations_{scene_, path_, rock_, laws_, matrix_} {
     if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
+  }
+
+  void begin() {
     state_.well_pressure = scene_.pore_pressure;
     state_.connected = !scene_.well.breakdown_pressure.has_value();
     for (std::size_t w = 0; w < scene_.wings.size(); ++w) start(static_cast<Index>(w));
     settle();
-    step_ = scene_.control.first;
+    state_.step = scene_.control.first;
+    qs::begin_ledger(equations_, state_);
+  }
+
+  void go_on(qs::State state) {
+    for (const qs::Cell& cell : state.cells) join(cell.edge, cell.inner, cell.parent);
+    rock_.follow(path_.unknowns());
+    state_ = std::move(state);
   }
 
   QuasiStaticRow step(double end) {
@@ -65,10 +75,11 @@ class QuasiStatic::Solver {
       const double until = dt >= end - state_.time ? end : state_.time + dt;
       const double rate = scene_.pump.volume(state_.time, until) / dt;
       const int iterations = advance(trial, dt, rate);
+      state_.iterations += spent_;
       if (iterations < 0) {
         path_.truncate(edges);
         laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(edges), laws_.end());
-        ++rejected_;
+        ++state_.rejected;
         continue;
       }
       return commit(std::move(trial), until, dt, rate, iterations);
@@ -96,9 +107,12 @@ class QuasiStatic::Solver {
 
   const QuasiStaticScene& scene() const { return scene_; }
   const FracturePath& path() const { return path_; }
-  double time() const { return state_.time; }
-  int rejected() const { return rejected_; }
-  int iterations() const { return iterations_; }
+  const qs::State& state() const { return state_; }
+  QuasiStaticRow row() const {
+    QuasiStaticRow row;
+    describe(row);
+    return row;
+  }
   double strength() const {
     double least = scene_.tensile_strength;
     for (const InterfaceLaw& law : laws_) least = std::min(least, law.strength());
@@ -136,21 +150,33 @@ class QuasiStatic::Solver {
   }
 
  private:
+  // Makes a mesh edge part of the path.
+  Index join(Index mesh_edge, Index inner, Index parent) {
+    const Index c = path_.add(mesh_edge, inner, parent);
+    laws_.emplace_back(
+        scene_.law,
+        resolved_strength(scene_.tensile_strength, plane_strain_modulus(scene_.stiffness),
+                          scene_.fracture_energy, path_.edges()[at(c)].length, scene_.edges_per_zone),
+        scene_.fracture_energy, scene_.closure);
+    return c;
+  }
+
   // Adds the next edge of a wing behind `parent`, intact and dry.
   Index extend(qs::State& state, Index wing, Index parent, std::size_t number) {
     const Wing& w = scene_.wings[at(wing)];
-    const Index inner = parent < 0 ? w.start : path_.edges()[at(parent)].vertex[1];
-    const Index c = path_.add(w.path[number], inner, parent);
-    const PathEdge& edge = path_.edges()[at(c)];
-    laws_.emplace_back(scene_.law,
-                       resolved_strength(scene_.tensile_strength, plane_strain_modulus(scene_.stiffness),
-                                         scene_.fracture_energy, edge.length, scene_.edges_per_zone),
-                       scene_.fracture_energy, scene_.closure);
     qs::Cell cell;
+    cell.edge = w.path[number];
+    cell.inner = parent < 0 ? w.start : path_.edges()[at(parent)].vertex[1];
+    cell.parent = parent;
+    const Index c = join(cell.edge, cell.inner, parent);
+    const PathEdge& edge = path_.edges()[at(c)];
     for (qs::Point& p : cell.points) p.in_situ = dot(edge.normal, scene_.stress * edge.normal);
     cell.pressure = scene_.pore_pressure;
-    if (matrix_) cell.matrix = matrix_->initial();
-    state.cells.push_back(std::move(cell));
+    if (matrix_) {
+      state.matrix.resize(state.matrix.size() + matrix_->cells(),
+                          std::get<MatrixRock>(scene_.leak_off).reservoir_pressure);
+    }
+    state.cells.push_back(cell);
     state.jumps.resize(path_.unknowns().size(), 0.0);
     return c;
   }
@@ -163,7 +189,7 @@ class QuasiStatic::Solver {
       if (i == 0) state_.inlets.push_back({c, 0.0});
       if (i < w.open) {
         const double free = std::max(laws_[at(c)].broken_opening(), scene_.closure.residual_aperture);
-        state_.cells[at(c)].wet = true;
+        state_.cells[at(c)].wet = 1;
         state_.cells[at(c)].exposed = 0.0;
         state_.cells[at(c)].points[0].max_opening = free;
         if (i > 0) state_.cells[at(parent)].points[1].max_opening = free;
@@ -190,8 +216,8 @@ class QuasiStatic::Solver {
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
       if (state_.cells[c].wet) state_.cells[c].mass = mass(state_, c);
     }
-    initial_fracture_ = fracture_volume(state_);
-    initial_well_ = state_.well_pressure;
+    state_.initial_fracture = fracture_volume(state_);
+    state_.initial_well = state_.well_pressure;
   }
 
   double mass(const qs::State& state, std::size_t c) const {
@@ -209,12 +235,15 @@ class QuasiStatic::Solver {
   double choose(double end) {
     const double change = scene_.pump.next_change(state_.time);
     const TimeControl& control = scene_.control;
-    double dt = std::min(step_, std::max(control.first, control.relative * (state_.time - event_)));
+    double dt =
+        std::min(state_.step, std::max(control.first, control.relative * (state_.time - state_.event)));
     if (!state_.connected) {
-      const double rate = scene_.pump.rate(state_.time);
-      dt = rate > 0.0 ? (*scene_.well.breakdown_pressure - state_.well_pressure) * scene_.well.storage / rate
+      const double rate = scene_.pump.rate(state_.time), breakdown = *scene_.well.breakdown_pressure;
+      // a line, in rows enough to be drawn
+      const double rise =
+          std::min(breakdown - state_.well_pressure, 0.05 * (breakdown - scene_.pore_pressure));
+      dt = rate > 0.0 ? std::max(rise * scene_.well.storage / rate, control.smallest)
                       : std::numeric_limits<double>::infinity();
-      dt = std::max(dt, control.smallest);
     }
     const double stop = std::min(end, change);
     const double left = stop - state_.time;
@@ -223,13 +252,13 @@ class QuasiStatic::Solver {
   }
 
   int advance(qs::State& trial, double dt, double rate) {
-    int iterations = 0;
+    int iterations = spent_ = 0;
     std::vector<int> grown(trial.tips.size(), 0);
     while (true) {
       rock_.follow(path_.unknowns());
       const qs::NewtonResult result = qs::solve(equations_, trial, dt, rate);
       iterations += result.iterations;
-      iterations_ += result.iterations;
+      spent_ = iterations;
       if (!result.converged) return -1;
       bool changed = wet(trial);
       for (std::size_t t = 0; t < trial.tips.size(); ++t) {
@@ -264,7 +293,7 @@ class QuasiStatic::Solver {
   void fill(qs::State& state, Index cell) const {
     qs::Cell& c = state.cells[at(cell)];
     const Index parent = path_.edges()[at(cell)].parent;
-    c.wet = true;
+    c.wet = 1;
     c.pressure = parent < 0 ? state.well_pressure : state.cells[at(parent)].pressure;
   }
 
@@ -295,7 +324,10 @@ class QuasiStatic::Solver {
         cell.leaked += lost;
         trial.leaked += lost;
         cell.mass = mass(trial, c);
-        if (matrix_ && trial.time >= cell.exposed) matrix_->advance(cell.matrix, dt, cell.pressure);
+        if (matrix_ && trial.time >= cell.exposed) {
+          const std::size_t n = matrix_->cells();
+          matrix_->advance(std::span(trial.matrix).subspan(c * n, n), dt, cell.pressure);
+        }
       }
       for (std::size_t i = 0; i < 2; ++i)
         cell.points[i].max_opening = std::max(cell.points[i].max_opening, w[i]);
@@ -309,13 +341,16 @@ class QuasiStatic::Solver {
     }
     const bool changes = until >= scene_.pump.next_change(state_.time);
     trial.time = until;
-    step_ = dt * scene_.control.growth;
-    if (changes) event_ = until;
+    trial.step = dt * scene_.control.growth;
+    if (changes) trial.event = until;
+    qs::account(equations_, state_, trial, dt, rate);
     if (!trial.connected && trial.well_pressure >= *scene_.well.breakdown_pressure * (1.0 - 1e-12)) {
-      trial.connected = true;
-      trial.breakdown_time = event_ = until;
+      trial.connected = 1;
+      trial.breakdown_time = trial.event = until;
     }
-    if (event_ == until) step_ = scene_.control.first;
+    if (trial.event == until) trial.step = scene_.control.first;
+    trial.rejected = state_.rejected;
+    trial.iterations = state_.iterations;
     state_ = std::move(trial);
     describe(row);
     row.step = dt;
@@ -328,10 +363,12 @@ class QuasiStatic::Solver {
     row.time = state_.time;
     row.well_pressure = state_.well_pressure;
     row.injected = state_.injected;
-    row.well_stored = scene_.well.storage * (state_.well_pressure - initial_well_);
+    row.well_stored = scene_.well.storage * (state_.well_pressure - state_.initial_well);
     row.fracture_volume = fracture_volume(state_);
     row.leaked = state_.leaked;
-    row.mass_defect = row.injected - row.well_stored - (row.fracture_volume - initial_fracture_) - row.leaked;
+    row.energies = state_.energies;
+    row.mass_defect =
+        row.injected - row.well_stored - (row.fracture_volume - state_.initial_fracture) - row.leaked;
     row.least_pressure = std::numeric_limits<double>::infinity();
     double wet = 0.0, touching = 0.0;
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
@@ -375,16 +412,22 @@ class QuasiStatic::Solver {
   std::optional<MatrixDiffusion> matrix_;
   qs::Equations equations_;
   qs::State state_;
-  double step_ = 0.0, event_ = 0.0;
-  double initial_fracture_ = 0.0, initial_well_ = 0.0;
-  int rejected_ = 0, iterations_ = 0;
+  int spent_ = 0;  // iterations of the last attempt at a step
 };
 
-QuasiStatic::QuasiStatic(QuasiStaticScene scene) : solver_(std::make_unique<Solver>(std::move(scene))) {}
+QuasiStatic::QuasiStatic(QuasiStaticScene scene) : solver_(std::make_unique<Solver>(std::move(scene))) {
+  solver_->begin();
+}
+QuasiStatic::QuasiStatic(QuasiStaticScene scene, quasi_static::State state)
+    : solver_(std::make_unique<Solver>(std::move(scene))) {
+  solver_->go_on(std::move(state));
+}
 QuasiStatic::~QuasiStatic() = default;
 
 const QuasiStaticScene& QuasiStatic::scene() const { return solver_->scene(); }
-double QuasiStatic::time() const { return solver_->time(); }
+double QuasiStatic::time() const { return state().time; }
+const quasi_static::State& QuasiStatic::state() const { return solver_->state(); }
+QuasiStaticRow QuasiStatic::row() const { return solver_->row(); }
 QuasiStaticRow QuasiStatic::step(double end) { return solver_->step(end); }
 void QuasiStatic::run(double end, const std::function<void(const QuasiStaticRow&)>& record) {
   while (time() < end) {
@@ -399,7 +442,5 @@ std::vector<Sym2> QuasiStatic::stress(const std::vector<Vec2>& corner_displaceme
   return solver_->stress(corner_displacement);
 }
 double QuasiStatic::strength() const { return solver_->strength(); }
-int QuasiStatic::rejected_steps() const { return solver_->rejected(); }
-int QuasiStatic::newton_iterations() const { return solver_->iterations(); }
 
 }  // namespace crackle

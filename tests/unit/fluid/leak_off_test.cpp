@@ -18,7 +18,7 @@ const MatrixRock rock{2.35e-20, 0.05, 1.5e-8, 2e-5, 34.84e6};
 TEST(LeakOff, DiffusionAtConstantPressure) {
   const MatrixDiffusion diffusion(rock);
   const double rise = 9.44e6;
-  MatrixDiffusion::Profile profile = diffusion.initial();
+  std::vector<double> profile(diffusion.cells(), rock.reservoir_pressure);
   double time = 0.0, volume = 0.0, next = 10.0;
   while (time < 1e6) {
     const double dt = std::max(0.01, 0.02 * time);

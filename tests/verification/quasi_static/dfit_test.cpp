@@ -58,7 +58,7 @@ TEST(Dfit, Reference) {
   }
   const QuasiStaticRow end = at_time(shut_in);
   const double length = 0.5 * (end.broken_length + end.damaged_length);
-  std::printf("%zu steps, %d iterations, %d rejected, %.1f s, mass %.1e\n", rows.size(),
+  std::printf("%zu steps, %ld iterations, %ld rejected, %.1f s, mass %.1e\n", rows.size(),
               stage.newton_iterations(), stage.rejected_steps(), wall, defect);
   std::printf(
       "breakdown at %.3f s (33.34); shut-in: length %.1f m (40.0), p %.3f (44.588), w %.3f mm (0.998)\n",

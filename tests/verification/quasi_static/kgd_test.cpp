@@ -52,7 +52,7 @@ Found toughness_vertex(double step, double confinement, Wetting wetting = Wettin
   });
   std::printf(
       "K vertex, h %.3f m, confinement %5.2f MPa: p %+.2f/%.2f %%, w %+.2f/%.2f %%, length %+.2f/%.2f %%, "
-      "mass %.0e; %d iterations, %d rejected\n",
+      "mass %.0e; %ld iterations, %ld rejected\n",
       step, confinement * 1e-6, found.pressure.mean(), found.pressure.rms(), found.opening.mean(),
       found.opening.rms(), found.length.mean(), found.length.rms(), found.defect, stage.newton_iterations(),
       stage.rejected_steps());
@@ -90,8 +90,8 @@ Found viscosity_vertex(double step, double relative) {
     found.length.add(weight, row.broken_length, 0.61541 * l);
   });
   std::printf(
-      "M vertex, h %.3f m, steps %.1f %%: p %+.2f/%.2f %%, w %+.2f/%.2f %%, length %+.2f %%, mass %.0e; %d "
-      "iterations, %d rejected\n",
+      "M vertex, h %.3f m, steps %.1f %%: p %+.2f/%.2f %%, w %+.2f/%.2f %%, length %+.2f %%, mass %.0e; %ld "
+      "iterations, %ld rejected\n",
       step, 100.0 * relative, found.pressure.mean(), found.pressure.rms(), found.opening.mean(),
       found.opening.rms(), found.length.mean(), found.defect, stage.newton_iterations(),
       stage.rejected_steps());
@@ -175,8 +175,8 @@ CarterFound carter(double step, double leak_off, double path) {
     c.reference = reference.fracture(a) / (rate * row.time);
   });
   std::printf(
-      "Carter %.0e, h %.3f m: p %+.2f/%.2f %%, w %+.2f/%.2f %%, efficiency %.4f of %.4f, mass %.0e; %d "
-      "iterations, %d rejected\n",
+      "Carter %.0e, h %.3f m: p %+.2f/%.2f %%, w %+.2f/%.2f %%, efficiency %.4f of %.4f, mass %.0e; %ld "
+      "iterations, %ld rejected\n",
       leak_off, step, c.found.pressure.mean(), c.found.pressure.rms(), c.found.opening.mean(),
       c.found.opening.rms(), c.efficiency, c.reference, c.found.defect, stage.newton_iterations(),
       stage.rejected_steps());

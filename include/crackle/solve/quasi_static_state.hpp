@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What changes during a quasi-static run: all that a checkpoint saves. A step works on a copy; taking it
+// back is dropping the copy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "crackle/core/vec2.hpp"
+
+namespace crackle::quasi_static {
+
+/// An end of a path edge.
+struct Point {
+  double max_opening = 0.0;  ///< [m]
+  double in_situ = 0.0;      ///< effective normal traction of the intact rock [Pa]
+};
+
+/// An edge of the path: two points, and a cell for fluid.
+struct Cell {
+  Index edge = -1;    ///< of the mesh
+  Index inner = -1;   ///< vertex that it was reached at
+  Index parent = -1;  ///< cell that it was reached from; -1: the well
+  std::array<Point, 2> points;
+  std::uint8_t wet = 0;
+  double pressure = 0.0;  ///< [Pa]
+  double mass = 0.0;      ///< over reference density [m2]
+  /// Since when it leaks off [s]: half damaged, where an ideal fracture would have its tip.
+  double exposed = std::numeric_limits<double>::infinity();
+  double leaked = 0.0;  ///< both faces [m2]
+};
+
+struct Inlet {
+  Index cell = -1;
+  double rate = 0.0;  ///< [m2/s]
+};
+
+struct Tip {
+  Index wing = -1;
+  Index cell = -1;  ///< the last one
+};
+
+/// Energies since the start [J/m], fluid's relative to pore pressure (ledger.hpp in src).
+struct Energies {
+  double pumped = 0.0;       ///< work of the pump
+  double well = 0.0;         ///< kept by the compressed well
+  double entry = 0.0;        ///< lost between well and fracture
+  double viscous = 0.0;      ///< lost by flow in the fracture
+  double leaked = 0.0;       ///< taken along by what leaked off
+  double fluid = 0.0;        ///< kept by the compressed fluid in the fracture
+  double strain = 0.0;       ///< kept by the rock, beyond the in-situ state
+  double confinement = 0.0;  ///< work against the in-situ stress
+  double faces = 0.0;        ///< kept by bonds and asperities
+  double fracture = 0.0;     ///< dissipated by fracture
+  double residual = 0.0;     ///< what does not add up, over the work of the pump [-]
+};
+
+struct State {
+  double time = 0.0;           ///< [s]
+  double step = 0.0;           ///< longest next [s]
+  double event = 0.0;          ///< when the schedule last changed [s]
+  std::vector<double> jumps;   ///< [m]
+  std::vector<Cell> cells;     ///< in the order in which they joined
+  std::vector<double> matrix;  ///< pressures in the rock beside the cells, one profile after the other [Pa]
+  std::vector<Inlet> inlets;
+  std::vector<Tip> tips;
+  double well_pressure = 0.0;  ///< [Pa]
+  double well_before = 0.0;    ///< at the beginning of the step [Pa]
+  std::uint8_t connected = 1;  ///< the well with the fracture
+  double breakdown_time = -std::numeric_limits<double>::infinity();
+  double injected = 0.0, leaked = 0.0;                ///< [m2]
+  double initial_fracture = 0.0, initial_well = 0.0;  ///< fluid [m2], pressure [Pa]
+  Energies energies;
+  Energies initial;                           ///< what the initial state keeps
+  std::int64_t rejected = 0, iterations = 0;  ///< steps taken back; of Newton
+};
+
+}  // namespace crackle::quasi_static

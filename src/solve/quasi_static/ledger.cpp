@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crackle::quasi_static {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+double enthalpy(const QuasiStaticScene& scene, double pressure) {
+  return scene.fluid.enthalpy(pressure) - scene.fluid.enthalpy(scene.pore_pressure);
+}
+
+double strain_energy(const Equations& e, const State& state) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < state.jumps.size(); ++i) {
+    const double* row = e.rock.row(i);
+    double force = 0.5 * row[i] * state.jumps[i];
+    for (std::size_t j = 0; j < i; ++j) force += row[j] * state.jumps[j];
+    sum += force * state.jumps[i];
+  }
+  return sum;
+}
+
+/// Pressure in a cell before a step; that of the fluid it was filled from where it was dry or not there.
+double pressure_before(const Equations& e, const State& before, Index cell) {
+  while (cell >= 0 && (at(cell) >= before.cells.size() || !before.cells[at(cell)].wet))
+    cell = e.path.edges()[at(cell)].parent;
+  return cell < 0 ? before.well_pressure : before.cells[at(cell)].pressure;
+}
+
+/// What the state keeps, and what fracture has taken.
+Energies kept(const Equations& e, const State& state) {
+  Energies k;
+  k.strain = strain_energy(e, state);
+  for (std::size_t c = 0; c < state.cells.size(); ++c) {
+    const Cell& cell = state.cells[c];
+    const PathEdge& edge = e.path.edges()[c];
+    const auto w = openings(edge, state.jumps);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Point& point = cell.points[i];
+      const double half = 0.5 * edge.length;
+      k.confinement -= half * point.in_situ * w[i];
+      k.faces += half * e.laws[c].stored(w[i], point.max_opening, point.in_situ);
+      k.fracture += half * e.laws[c].dissipated(std::max(point.max_opening, w[i]));
+    }
+    if (!cell.wet) continue;
+    const double p = cell.pressure;
+    k.fluid +=
+        cell.mass * (enthalpy(e.scene, p) - (p - e.scene.pore_pressure) / e.scene.fluid.density(p).value);
+  }
+  return k;
+}
+
+}  // namespace
+
+void begin_ledger(const Equations& equations, State& state) { state.initial = kept(equations, state); }
+
+void account(const Equations& e, const State& before, State& after, double dt, double rate) {
+  Energies& sum = after.energies;
+  const Energies now = kept(e, after);
+  const auto h = [&](double p) { return enthalpy(e.scene, p); };
+  const double well = 0.5 * (h(before.well_pressure) + h(after.well_pressure));
+  sum.pumped += well * rate * dt;
+  sum.well += well * e.scene.well.storage * (after.well_pressure - before.well_pressure);
+  std::vector<double> entered(after.cells.size(), 0.0);  // from the well [m2]
+  if (before.connected) {
+    for (const Inlet& inlet : after.inlets) entered[at(inlet.cell)] += inlet.rate * dt;
+  }
+  for (std::size_t c = 0; c < after.cells.size(); ++c) {
+    const Cell& cell = after.cells[c];
+    if (!cell.wet) continue;
+    const double mean = 0.5 * (h(pressure_before(e, before, static_cast<Index>(c))) + h(cell.pressure));
+    const bool old = c < before.cells.size();
+    const double gained = cell.mass - (old ? before.cells[c].mass : 0.0);
+    const double lost = cell.leaked - (old ? before.cells[c].leaked : 0.0);
+    sum.entry += (well - mean) * entered[c];
+    sum.leaked += mean * lost;
+    sum.viscous -= mean * (gained + lost - entered[c]);
+  }
+  sum.fluid = now.fluid - after.initial.fluid;
+  sum.strain = now.strain - after.initial.strain;
+  sum.confinement = now.confinement - after.initial.confinement;
+  sum.faces = now.faces - after.initial.faces;
+  sum.fracture = now.fracture - after.initial.fracture;
+  const double left = sum.pumped - (sum.well + sum.entry + sum.viscous + sum.leaked + sum.fluid + sum.strain +
+                                    sum.confinement + sum.faces + sum.fracture);
+  sum.residual = std::abs(left) / std::max({sum.pumped, sum.well, 1e-30});
+}
+
+}  // namespace crackle::quasi_static

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ledger of energy: what the pump does is kept or lost somewhere. Enthalpy of the fluid over pore
+// pressure h(p) = ∫ dp/ρ goes with every unit of its mass; means of h at both ends of a step:
+//   pump        Σ h_w Q Δt
+//   well        Σ h_w C_w Δp_w             entry   Σ (h_w − h) q Δt
+//   viscous     −Σ h (Δm + leaked − q Δt)  leaked  Σ h V_leak
+//   fluid       Σ m h − (p − p_pore) V
+//   strain      ½ δᵀ S δ                    confinement  −∫ σ'_n w ds
+//   faces       ∫ what bonds and asperities give back ds     fracture  ∫ G(w_m) ds
+// The fluid's work on the faces follows from the rest; so a step too long, or an equation that is not
+// solved, shows as residual.
+#pragma once
+
+#include "newton.hpp"
+
+namespace crackle::quasi_static {
+
+/// Books the energies of an initial state as what later ones are counted from.
+void begin_ledger(const Equations& equations, State& state);
+
+/// Books a step of length dt [s] with a mean pump rate [m2/s] between two states.
+void account(const Equations& equations, const State& before, State& after, double dt, double rate);
+
+}  // namespace crackle::quasi_static
