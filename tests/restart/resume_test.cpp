@@ -93,6 +93,45 @@ TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
   expect_same_results(path("parts"), path("whole"));
 }
 
+// In field time, while it grows and leaks by diffusion; any number of threads.
+TEST_F(Resume, LeavesTheSameBytesInFieldTime) {
+  const auto arguments = [&](const std::string& folder, const std::string& threads) {
+    return std::vector<std::string>{"run",
+                                    std::string(CRACKLE_SOURCE_DIR) + "/cases/kgd/smoke.toml",
+                                    "-q",
+                                    "-j",
+                                    threads,
+                                    "-o",
+                                    path(folder),
+                                    "--set",
+                                    "run.end_time=40 s",
+                                    "--set",
+                                    "output.fields_every=4 s",
+                                    "--set",
+                                    "fluid.leak_off=diffusion",
+                                    "--set",
+                                    "rock.permeability=1e-18 m2",
+                                    "--set",
+                                    "rock.porosity=0.05",
+                                    "--set",
+                                    "rock.pore_compressibility=1e-9 1/Pa",
+                                    "--set",
+                                    "rock.pore_viscosity=1 cP"};
+  };
+  ASSERT_EQ(Process(arguments("whole", "1"), path("process")).wait().code, 0);
+  for (const char* threads : {"2", "8"}) {
+    const std::string folder = std::string("threads") + threads;
+    ASSERT_EQ(Process(arguments(folder, threads), path("process")).wait().code, 0);
+    expect_same_results(path(folder), path("whole"));
+  }
+  Process process(arguments("parts", "1"), path("process"));
+  EXPECT_EQ(interrupted(process, "parts", 2).code, 75);
+  EXPECT_THAT(read_text(path("parts/summary.json")), HasSubstr("\"interrupted\""));
+  EXPECT_EQ(interrupted_resume("parts", 6, "2").code, 75);
+  EXPECT_EQ(resume("parts").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+}
+
 TEST_F(Resume, WritesACheckpointWhenAsked) {
   Process process(arguments("out"), path("process"));
   ASSERT_TRUE(wait_for(path("out/fields/fields_000002.vtu"), process));
