@@ -6,8 +6,8 @@
 
 #include "../granite.hpp"
 #include "../result.hpp"
-#include "crackle/solve/equilibrium.hpp"
 #include "crackle/solve/estimates.hpp"
+#include "slit.hpp"
 
 namespace crackle {
 namespace {
@@ -17,68 +17,20 @@ using granite::at;
 constexpr double half_width = 20.0;  // of the block [m]
 constexpr double pressure = 2e6;     // [Pa]
 
-// A block with a slit along y = 0 from −a to a, whose lower vertices are doubled.
-struct Slit {
-  std::shared_ptr<const Mesh> mesh;
-  std::vector<std::pair<Index, Index>> faces;  // lower and upper vertex at a place
-  std::vector<char> fixed;
-};
-
-Slit make_slit(double half_length, double size) {
-  MeshRecipe recipe;
-  recipe.width = recipe.height = 2.0 * half_width;
-  recipe.size_fine = size;
-  recipe.fine_radius = 1.5;
-  recipe.size_coarse = 3.0;
-  recipe.joints = {{{-half_length, 0.0}, {half_length, 0.0}}};
-  recipe.joint_sets = {"crack"};
-  const Mesh whole = generate_mesh(recipe);
-  Mesh mesh = whole;
-  std::vector<Index> upper(mesh.vertices.size(), -1);
-  Slit slit;
-  for (const Edge& edge : whole.edges) {
-    if (edge.joint < 0) continue;
-    for (const Index v : edge.vertex) {
-      if (upper[at(v)] >= 0 || std::abs(whole.vertices[at(v)].x) > half_length * (1.0 - 1e-9)) continue;
-      upper[at(v)] = mesh.vertex_count();
-      mesh.vertices.push_back(mesh.vertices[at(v)]);
-      slit.faces.emplace_back(v, upper[at(v)]);
-    }
-  }
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    if (granite::centroid(whole, t).y < 0.0) continue;
-    for (Index& v : mesh.triangles[at(t)]) {
-      if (v < static_cast<Index>(upper.size()) && upper[at(v)] >= 0) v = upper[at(v)];
-    }
-  }
-  build_edges(mesh);
-  slit.fixed.assign(mesh.vertices.size(), 0);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec2 x = mesh.vertices[v];
-    slit.fixed[v] = std::max(std::abs(x.x), std::abs(x.y)) > half_width * (1.0 - 1e-9);
-  }
-  slit.mesh = std::make_shared<const Mesh>(std::move(mesh));
-  return slit;
-}
-
 struct Opened {
   double volume = 0.0, widest = 0.0;
   std::size_t edges = 0;
 };
 
 Opened open(double half_length, double size) {
-  const Slit slit = make_slit(half_length, size);
+  MeshRecipe recipe;
+  recipe.width = recipe.height = 2.0 * half_width;
+  recipe.size_fine = size;
+  recipe.fine_radius = 1.5;
+  recipe.size_coarse = 3.0;
+  const Slit slit = make_slit(recipe, half_length);
   const Mesh& mesh = *slit.mesh;
-  const Bulk bulk(mesh, granite::stiffness(), granite::density, {}, {});
-  const auto load = [&](const State&, std::span<Vec2> forces) {
-    for (const Edge& edge : mesh.edges) {
-      const Vec2 p = mesh.vertices[at(edge.vertex[0])], q = mesh.vertices[at(edge.vertex[1])];
-      if (edge.triangle[1] >= 0 || std::max(std::abs(p.y), std::abs(q.y)) > 1e-9) continue;
-      for (const Index side : {edge.side[0] + 0, (edge.side[0] + 1) % 3})
-        forces[at(3 * edge.triangle[0] + side)] -= (0.5 * pressure) * right_normal(q - p);
-    }
-  };
-  const std::vector<Vec2> u = static_displacement(slit.mesh, bulk, slit.fixed, load);
+  const std::vector<Vec2> u = displacement(slit, {pressure, pressure, 0.0});
   Opened o;
   std::vector<Vec2> profile{{-half_length, 0.0}, {half_length, 0.0}};
   for (const auto& [lower, upper] : slit.faces) {

@@ -3,6 +3,8 @@
 // Energy of a body that vibrates freely: kept without damping, all accounted for with it.
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "../../granite.hpp"
 #include "../../result.hpp"
 
@@ -51,13 +53,15 @@ Vibration vibrate(const char* law, double damping_ratio, int steps) {
 }
 
 TEST(Vibration, UndampedKeepsItsEnergy) {
-  const Check check("A  undamped vibration, 20 000 steps: energy");
+  const Check check("A  undamped vibration, 100 000 steps: energy");
   double worst = 0.0;
   for (const char* law :
        {static_cast<const char*>(nullptr), "linear", "evans_marathe", "benzeggagh_kenane"}) {
-    const Vibration v = vibrate(law, 0.0, 20000);
-    std::printf("undamped, %s: energy within %.1e over 20000 steps, drift %.1e\n",
-                law == nullptr ? "tied" : law, v.worst, v.drift);
+    // Laws differ in nothing but the shape of what no element here comes to: one of them goes all the way.
+    const int steps = law == nullptr || law == std::string_view("benzeggagh_kenane") ? 100000 : 20000;
+    const Vibration v = vibrate(law, 0.0, steps);
+    std::printf("undamped, %s: energy within %.1e over %d steps, drift %.1e\n", law == nullptr ? "tied" : law,
+                v.worst, steps, v.drift);
     worst = std::max(worst, v.worst);
     EXPECT_LT(v.worst, 3e-6);
     EXPECT_LT(std::abs(v.drift), 1e-6);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Speeds of P and S waves in a strip with rollers (validation.md A4), by the way of the pulse's centre.
+// Speeds of P and S waves in a strip with rollers, by the way of the pulse's centre, and of Rayleigh waves
+// along a free surface that a line force hits, by arrivals (validation.md A4).
 #include <gtest/gtest.h>
 
 #include "../../granite.hpp"
@@ -82,6 +83,67 @@ TEST(Wave, SpeedsInBeddedRock) {
               100 * errors[1], 100 * errors[2]);
   check.result(std::max({std::abs(errors[0]), std::abs(errors[1]), std::abs(errors[2])}));
   for (const double error : errors) EXPECT_LT(std::abs(error), 0.01);
+}
+
+// Vertical velocity in time at places of the surface, after a Ricker pulse of force at x = 0.
+std::vector<std::vector<double>> lamb_records(const std::vector<double>& places, double wave_length,
+                                              double dt_share, double end, double& dt) {
+  Scene scene = granite::scene(
+      granite::free_body(structured_rectangle({-0.6, -0.9}, {1.5, 0.0}, 210, 90, MeshPattern::right)));
+  Simulation simulation(scene);
+  State& state = simulation.state();
+  dt = dt_share * simulation.stable().limit;
+  const auto node_near = [&](double x) {
+    Index best = 0;
+    for (Index n = 0; n < state.node_count(); ++n) {
+      if (norm(state.node_reference(n) - Vec2{x, 0.0}) < norm(state.node_reference(best) - Vec2{x, 0.0}))
+        best = n;
+    }
+    return at(best);
+  };
+  const std::size_t source = node_near(0.0);
+  std::vector<std::size_t> stations;
+  for (const double x : places) stations.push_back(node_near(x));
+  const double period = wave_length / 2166.14;
+  std::vector<std::vector<double>> records(places.size());
+  while (state.time < end) {
+    const double a = std::pow(std::numbers::pi * (state.time / period - 1.5), 2);
+    state.velocity[source].y -= dt * 1e3 * (1.0 - 2.0 * a) * std::exp(-a) * state.inverse_mass[source];
+    simulation.step(dt);
+    for (std::size_t i = 0; i < stations.size(); ++i) records[i].push_back(state.velocity[stations[i]].y);
+  }
+  return records;
+}
+
+// The lag [samples] at which two records agree best, between samples by a parabola.
+double best_lag(const std::vector<double>& first, const std::vector<double>& second) {
+  const auto product = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + lag < first.size(); ++i) sum += first[i] * second[i + lag];
+    return sum;
+  };
+  std::size_t best = 1;
+  for (std::size_t lag = 1; lag + 1 < first.size(); ++lag) {
+    if (product(lag) > product(best)) best = lag;
+  }
+  const double left = product(best - 1), middle = product(best), right = product(best + 1);
+  return static_cast<double>(best) + 0.5 * (left - right) / (left - 2.0 * middle + right);
+}
+
+TEST(Wave, SpeedOfRayleigh) {
+  const Check check("A4 speed of Rayleigh waves");
+  const std::vector<double> places{0.5, 0.6, 0.7, 0.8};
+  double dt = 0.0;
+  const auto records = lamb_records(places, 0.15, 0.9, 0.55e-3, dt);
+  double worst = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double speed = (places[i] - places[0]) / (best_lag(records[0], records[i]) * dt);
+    std::printf("Rayleigh wave, %.1f to %.1f m: %.1f m/s, %+.2f %%\n", places[0], places[i], speed,
+                100 * (speed / 2166.14 - 1.0));
+    worst = std::max(worst, std::abs(speed / 2166.14 - 1.0));
+  }
+  check.result(worst);
+  EXPECT_LT(worst, 0.02);
 }
 
 }  // namespace
