@@ -71,6 +71,7 @@ void members(RunMemory& m, V&& v) {
   v("loop_wall", m.loop_wall);
   v("output_wall", m.output_wall);
   v("parts", m.parts);
+  v("guards", m.guards);
   v("folder", m.folder);
   v("events", m.events);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crackle/io/output.hpp"
+#include "crackle/solve/guards.hpp"
 #include "crackle/solve/quasi_static_state.hpp"
 #include "crackle/solve/simulation.hpp"
 #include "tally.hpp"
@@ -26,6 +27,7 @@ struct RunMemory {
   double loop_wall = 0.0;                        ///< in steps [s]
   double output_wall = 0.0;                      ///< [s]
   std::array<double, Stopwatch::parts> parts{};  ///< in each part of the step [s]
+  GuardMemory guards;
   FolderMarks folder;
   std::vector<SeismicEvent> events;  ///< so far
 };

@@ -20,6 +20,7 @@ struct RunOptions : CaseOptions {
   std::string resume;  ///< folder of an interrupted run, instead of a case; empty: a new run
   int threads = 0;     ///< 0: all cores
   bool quiet = false;
+  bool allow_unstable = false;  ///< what the guards find is said and counted, and the run goes on
 };
 
 struct CheckOptions : CaseOptions {

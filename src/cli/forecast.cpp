@@ -84,11 +84,11 @@ void require_disk(const Case& scene, double triangles, const Steps& steps, const
                   bytes_text(needed), frames_of_run(scene, steps), bytes_text(available), folder));
 }
 
-Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh) {
+Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh, bool allow_unstable) {
   double dt = scene.run.safety * stable.limit;
   if (scene.run.time_step > 0.0) {
     dt = scene.run.time_step;
-    if (dt > stable.limit) {
+    if (dt > stable.limit && !allow_unstable) {
       throw CaseError(
           scene.file, 0, 0,
           fmt::format("run.time_step = {:.3g} s is above the {}; write \"auto\"", dt, stable.explain(mesh)));

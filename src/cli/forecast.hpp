@@ -31,7 +31,9 @@ struct Steps {
   std::int64_t count = 0;
   double length = 0.0;  ///< [s]
 };
-Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh);
+/// @param allow_unstable any run.time_step
+Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh,
+                   bool allow_unstable = false);
 
 /// Size of all frames of a run and its other files [bytes].
 double output_of_run(const Case& scene, double triangles, const Steps& steps);

@@ -83,6 +83,8 @@ class CommandLine {
       resume->excludes(command->get_option(other));
     add_threads(*command, run_.threads);
     command->add_flag("-q,--quiet", run_.quiet, "Print errors only");
+    command->add_flag("--allow-unstable", run_.allow_unstable,
+                      "Take run.time_step as it is and go on past what the guards find, to study it");
     command->callback([this] {
       if (run_.case_file.empty() && run_.resume.empty()) throw CLI::RequiredError("case");
       code_ = crackle::run_command(run_);

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "checkpoint.hpp"
 #include "commands.hpp"
@@ -15,6 +16,7 @@
 #include "crackle/core/version.hpp"
 #include "crackle/io/case.hpp"
 #include "crackle/io/output.hpp"
+#include "crackle/solve/guards.hpp"
 #include "crackle/solve/scene_warnings.hpp"
 #include "forecast.hpp"
 #include "frames.hpp"
@@ -85,6 +87,8 @@ class Run {
     if (options_.resume.empty() || !resume()) begin();
     heed_stops();
     Progress progress(scene_.run.end_time, options_.quiet);
+    guards_.emplace(*simulation_, memory_.guards);
+    if (options_.allow_unstable) say("--allow-unstable: what the guards find does not stop this run");
     loop_start_ = last_checkpoint_ = Clock::now();
     try {
       if (simulation_->state().step == 0) climb_ramp();
@@ -160,7 +164,7 @@ class Run {
     say(simulation_->stable().explain(*mesh));
     for (const std::string& line : scene_warnings(solver_scene, scene_.run.end_time, simulation_->stable()))
       say(line);
-    const Steps steps = steps_of_run(scene_, simulation_->stable(), *mesh);
+    const Steps steps = steps_of_run(scene_, simulation_->stable(), *mesh, options_.allow_unstable);
     require_disk(scene_, mesh->triangle_count(), steps, folder_.path());
     memory_.step_length = steps.length;
     say(fmt::format("{} steps of {:.3g} s on {} threads", steps.count, steps.length, threads_));
@@ -208,7 +212,8 @@ class Run {
     const double time = simulation_->state().time;
     const double left = scene_.run.end_time - time;
     // Shorter than planned where faces have come into general contact, and to land on the end.
-    double dt = std::min(memory_.step_length, scene_.run.safety * simulation_->stable_limit());
+    double dt = memory_.step_length;
+    if (!options_.allow_unstable) dt = std::min(dt, scene_.run.safety * simulation_->stable_limit());
     const bool last = left <= dt * (1.0 + 1e-9);
     if (last) dt = left;
     if (fields_.is(time, dt)) write_frame();
@@ -217,17 +222,20 @@ class Run {
       const Energies e = simulation_->step_and_account(dt);
       tally_.residual(e.residual);
       folder_.append_history(history_row(*simulation_, e, tally_, time, dt, pressure));
-      if (e.residual > 1e-2) {
-        throw NumericalError(
-            fmt::format("energy residual {:.3g} passes 1e-2 at step {}, time {:.6g} s, step size {:.3g} s "
-                        "(stable: {:.3g} s): take a smaller run.safety",
-                        e.residual, simulation_->state().step, time, dt, simulation_->stable_limit()));
-      }
+      heed(guards_->after_step(*simulation_, e));
     } else {
       simulation_->step(dt);
+      heed(guards_->after_step(*simulation_));
     }
     note(simulation_->new_events());
     tally_.pressure(time, pressure, dt);
+  }
+
+  void heed(const std::vector<Finding>& findings) {
+    for (const Finding& f : findings) {
+      if (f.stops && !options_.allow_unstable) throw NumericalError(f.text);
+      say(f.stops ? "unstable, and goes on: " + f.text : f.text);
+    }
   }
 
   void note(const std::vector<SeismicEvent>& happened) {
@@ -263,6 +271,7 @@ class Run {
     memory.tally = tally_.memory();
     memory.next_history = history_.next();
     memory.next_fields = fields_.next();
+    memory.guards = guards_->memory();
     memory.wall += seconds_since(start_);
     memory.loop_wall += seconds_since(loop_start_) - output_wall_;
     memory.output_wall += output_wall_;
@@ -290,6 +299,8 @@ class Run {
     summary.core_ns_per_triangle_step = 1e9 * memory.loop_wall * threads_ /
                                         (static_cast<double>(summary.triangles) *
                                          static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
+    summary.alarms = memory.guards.alarms;
+    summary.unstable_allowed = options_.allow_unstable;
     summary.exit = exit_;
     folder_.write_quakeml(memory_.events, scene_);
     folder_.write_summary(summary);
@@ -327,6 +338,7 @@ class Run {
   std::unique_ptr<Simulation> simulation_;
   Tally tally_;
   Due history_, fields_;
+  std::optional<Guards> guards_;
   RunMemory memory_;  // of the processes before this one, but for the events: all
   std::string text_;  // of the resolved case
   std::string exit_ = "done";

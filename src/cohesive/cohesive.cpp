@@ -213,7 +213,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     c.status[i] = CohesiveStatus::broken;
     h.break_time = state.time;
   }
-  double fracture = 0.0, sliding = 0.0, friction = 0.0;
+  double fracture = 0.0, sliding = 0.0, friction = 0.0, made = 0.0;
   h.slid = 0.0;
   for (std::size_t q = 0; q < 3; ++q) {
     const CohesivePoint& p = h.point[q];
@@ -228,8 +228,9 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
         normal_work + shear_work + friction_work - (p.recoverable() - old[q].recoverable());
     const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
     const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
-    // Never negative: what a step would gain is left to the ledger's residual, where it shows.
+    // Never negative: what a step would gain is left to the ledger's residual, and to the guards.
     const double broken = std::max(dissipated - rubbed, 0.0);
+    made += weight[q] * std::max(p.stored - old[q].stored - normal_work - shear_work - friction_work, 0.0);
     friction += weight[q] * (was_broken ? rubbed + broken : rubbed);
     if (!was_broken) {
       fracture += weight[q] * broken;
@@ -247,9 +248,11 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   h.fracture_energy += fracture;
   h.sliding_work += sliding;
   h.friction_energy += friction;
+  h.made_energy += made;
   h.rubbed = friction;
   sum.fracture += fracture;
   sum.friction += friction;
+  sum.made += made;
   const auto& p = h.point;
   c.force[i] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
                           p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
@@ -341,6 +344,7 @@ void Cohesive::add_tractions(State& state) {
   for (std::size_t b = 0; b < partial.size(); ++b) {
     state.dissipation.fracture += partial[b].fracture;
     state.dissipation.friction += partial[b].friction;
+    state.dissipation.made += partial[b].made;
     newly_broken_.insert(newly_broken_.end(), broken[b].begin(), broken[b].end());
   }
   std::sort(newly_broken_.begin(), newly_broken_.end());

@@ -13,6 +13,7 @@ class JsonObject {
   /// A value that is not a finite number becomes null: JSON has neither NaN nor infinity.
   void add(std::string_view key, double value);
   void add(std::string_view key, std::int64_t value);
+  void add(std::string_view key, bool value) { add_raw(key, value ? "true" : "false"); }
   void add(std::string_view key, const std::string& text);
   /// The whole object with its line end.
   std::string text() const { return members_ + "\n}\n"; }

@@ -22,6 +22,8 @@ std::string summary_json(const RunSummary& summary) {
   json.add("events", summary.events);
   json.add("magnitude_min", summary.magnitude_min);
   json.add("magnitude_max", summary.magnitude_max);
+  json.add("alarms", summary.alarms);
+  json.add("unstable_allowed", summary.unstable_allowed);
   json.add("exit", summary.exit);
   return json.text();
 }

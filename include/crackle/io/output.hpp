@@ -99,7 +99,9 @@ struct RunSummary {
   std::int64_t events = 0;
   double magnitude_min = 0.0;  ///< NaN without events (written as null)
   double magnitude_max = 0.0;
-  std::string exit = "done";  ///< "done", "interrupted" or the reason of a numerical stop
+  std::int64_t alarms = 0;        ///< of the guards, that stop a run unless that is allowed to be unstable
+  bool unstable_allowed = false;  ///< crackle run --allow-unstable
+  std::string exit = "done";      ///< "done", "interrupted" or the reason of a numerical stop
 };
 
 /// What status.json says of a run while it goes on and after it.

@@ -3,6 +3,7 @@
 // What a simulation keeps beside its State, by name: goes into a checkpoint too.
 #pragma once
 
+#include "crackle/solve/guards.hpp"
 #include "crackle/solve/quasi_static_state.hpp"
 #include "crackle/solve/simulation.hpp"
 #include "crackle/state/members.hpp"
@@ -36,6 +37,15 @@ void members(BoundaryNode& n, V&& v) {
   v("load", n.load);
   v("dashpot", n.dashpot);
   v("velocity_before", n.velocity_before);
+}
+
+template <class V>
+void members(GuardMemory& m, V&& v) {
+  v("alarms", m.alarms);
+  v("raised", m.raised);
+  v("broken", m.broken);
+  v("stray", m.stray);
+  v("largest_energy", m.largest_energy);
 }
 
 template <class V>

@@ -54,6 +54,7 @@ void members(CohesiveHistory& h, V&& v) {
   v("fracture_energy", h.fracture_energy);
   v("sliding_work", h.sliding_work);
   v("friction_energy", h.friction_energy);
+  v("made_energy", h.made_energy);
   v("slid", h.slid);
   v("rubbed", h.rubbed);
   v("yield_time", h.yield_time);
@@ -107,6 +108,7 @@ void members(Dissipation& d, V&& v) {
   v("friction", d.friction);
   v("viscous", d.viscous);
   v("boundary", d.boundary);
+  v("made", d.made);
 }
 
 template <class V>

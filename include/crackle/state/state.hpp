@@ -52,6 +52,7 @@ struct CohesiveHistory {
   double fracture_energy = 0.0;   ///< dissipated by breaking [J/m]
   double sliding_work = 0.0;      ///< part of fracture_energy done in shear [J/m]
   double friction_energy = 0.0;   ///< dissipated by friction [J/m]
+  double made_energy = 0.0;       ///< given back beyond what it held: an error of the steps [J/m]
   double slid = 0.0;              ///< in the last step, past sticking: mean over its points [m]
   double rubbed = 0.0;            ///< dissipated by friction in the last step [J/m]
   double yield_time = -1.0;       ///< first damage [s]; -1: none yet
@@ -107,6 +108,7 @@ struct Dissipation {
   double friction = 0.0;
   double viscous = 0.0;
   double boundary = 0.0;  ///< radiated through an absorbing boundary
+  double made = 0.0;      ///< not dissipated: given back by cohesive elements beyond what they held
 };
 
 /// A point of a free side (3 t + i: side i of triangle t) that touches another free side, or that

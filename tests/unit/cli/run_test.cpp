@@ -31,6 +31,7 @@ TEST_F(RunCommand, FromCaseToCatalog) {
 
   const std::string events = read_text(out + "/events.csv");
   ASSERT_GT(lines(events), 3) << "the case breaks";
+  EXPECT_THAT(read_text(out + "/summary.json"), HasSubstr("\"alarms\": 0,")) << "and no guard minds";
   const Outcome summary = crackle({"catalog", out, "--no-figures"});
   EXPECT_EQ(summary.code, 0) << summary.err;
   EXPECT_THAT(summary.out,
@@ -62,6 +63,22 @@ TEST_F(RunCommand, StatusSaysHowItWent) {
               AllOf(HasSubstr("\"state\": \"failed\""), HasSubstr("run.time_step = 1e-05 s is above")));
   // nothing was run there, so the folder can be used again
   EXPECT_EQ(crackle({"run", file, "-q", "-j", "1", "-o", path("b"), "--set", "run.end_time=10us"}).code, 0);
+}
+
+TEST_F(RunCommand, UnstableRunOnlyWhereItIsAllowed) {
+  const std::string file = write("good.toml", good_case);
+  const std::vector<std::string> too_long{
+      "run", file, "-q", "-j", "1", "--set", "run.time_step=1e-6", "--set", "run.end_time=0.1 ms"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = too_long;
+    all.insert(all.end(), more.begin(), more.end());
+    return crackle(all);
+  };
+  expect_refusal(with({"-o", path("a")}), 2, "run.time_step = 1e-06 s is above the stable step");
+  EXPECT_EQ(with({"-o", path("a"), "--allow-unstable"}).code, 0);
+  EXPECT_THAT(read_text(path("a/run.log")), HasSubstr("unstable, and goes on: the mesh oscillates"));
+  EXPECT_THAT(read_text(path("a/summary.json")),
+              AllOf(HasSubstr("\"unstable_allowed\": true"), testing::Not(HasSubstr("\"alarms\": 0,"))));
 }
 
 // What run resolved is a case that runs to the same.

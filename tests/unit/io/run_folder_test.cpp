@@ -198,6 +198,8 @@ TEST(RunFolder, SummaryIsJson) {
   "events": 0,
   "magnitude_min": null,
   "magnitude_max": null,
+  "alarms": 0,
+  "unstable_allowed": false,
   "exit": "stopped: \"edge\\5\"\n\u0009at 1 ms\u0001"
 }
 )");
