@@ -50,6 +50,7 @@ RegimeChoice choose_regime(const Case& scene) {
     require(scene.joints.empty() && scene.joint_sets.empty(), scene, "joints are not yet taken");
     require(scene.fluid.viscosity > 0.0, scene, "give fluid.viscosity");
     require(!scene.fluid.pump.empty(), scene, "give a [[fluid.pump]]");
+    require(scene.stress_gradient == Sym2{}, scene, "stress gradients are not yet taken");
     require(scene.stress.xy == 0.0, scene, "its fracture lies along x: stress.xy has to be 0");
     require(scene.mesh.fine_radius > scene.fracture.notch + scene.mesh.size_fine, scene,
             "mesh.fine_radius is where the path of the fracture ends: it has to be above fracture.notch");

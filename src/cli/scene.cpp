@@ -56,6 +56,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.stiffness = rock_stiffness(scene.rock);
   s.density = scene.rock.density;
   s.stress = scene.stress;
+  s.stress_gradient = scene.stress_gradient;
   s.damping = {scene.damping.viscosity.value_or(0.0), scene.damping.ratio.value_or(0.0)};
   s.law = find_law(scene.cohesive.law);
   s.cohesive.tensile_strength = scene.rock.tensile_strength;
@@ -76,8 +77,9 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.contact = {scene.contact.normal_penalty, scene.contact.tangential_penalty, s.cohesive.tan_residual};
   s.absorbing_boundary = scene.boundary.outer == "absorbing";
   if (scene.wellbore.diameter > 0.0 || !scene.fluid.pump.empty()) {
-    s.fluid = CompressibleFluid{scene.fluid.bulk_modulus, scene.fluid.density, scene.fluid.initial_pressure};
-    s.initial_pressure = scene.fluid.initial_pressure;
+    s.pore_pressure = scene.rock.pore_pressure;
+    s.initial_pressure = scene.fluid.initial_pressure - s.pore_pressure;
+    s.fluid = CompressibleFluid{scene.fluid.bulk_modulus, scene.fluid.density, s.initial_pressure};
     std::vector<PumpStage> stages;
     for (const auto& stage : scene.fluid.pump) stages.push_back({stage.from, stage.to, stage.rate});
     s.pump = Pump(std::move(stages));

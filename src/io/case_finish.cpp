@@ -194,6 +194,7 @@ void finish_case(ReadCase& read) {
   if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;
   if (scene.contact.tangential_penalty == 0.0) scene.contact.tangential_penalty = scene.cohesive.penalty;
   if (!given.has("contact.friction_angle")) scene.contact.friction_angle = scene.rock.friction_angle;
+  if (!given.has("fluid.initial_pressure")) scene.fluid.initial_pressure = scene.rock.pore_pressure;
   finish_joints(read);
 }
 

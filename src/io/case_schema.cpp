@@ -18,6 +18,7 @@ const Quantity speed{"a speed", {"m/s"}, "\"1 cm/s\""};
 const Quantity duration{"a time", {"s"}, "\"1.2e-3 s\""};
 const Quantity density{"a density", {"kg/m3"}, "\"2700 kg/m3\""};
 const Quantity pressure{"a pressure", {"Pa"}, "\"35 MPa\""};
+const Quantity pressure_gradient{"a pressure per length", {"Pa/m"}, "\"-15 kPa/m\""};
 const Quantity angle{"an angle", {"rad"}, "\"38 deg\""};
 const Quantity energy_per_area{"an energy per area", {"J/m2"}, "\"5 J/m2\""};
 const Quantity viscosity{"a viscosity", {"Pa s"}, "\"1e4 Pa s\""};
@@ -160,7 +161,7 @@ std::vector<TableSpec> make_tables() {
       number("friction_angle", slot<&C::rock, &C::Rock::friction_angle>(), angle, friction, Need::always, "internal friction angle"),
       number("fracture_energy_mode1", slot<&C::rock, &C::Rock::fracture_energy_mode1>(), energy_per_area, breaking, Need::always, "fracture energy in opening"),
       number("fracture_energy_mode2", slot<&C::rock, &C::Rock::fracture_energy_mode2>(), energy_per_area, breaking, Need::always, "fracture energy in sliding"),
-      number("pore_pressure", slot<&C::rock, &C::Rock::pore_pressure>(), pressure, any, Need::never, "of the formation, in the quasi-static regime"),
+      number("pore_pressure", slot<&C::rock, &C::Rock::pore_pressure>(), pressure, any, Need::never, "of the formation; given, all pressures of the fluid are total ones, else above it"),
       number("permeability", slot<&C::rock, &C::Rock::permeability>(), permeability, not_negative, Need::never, "for fluid.leak_off = \"diffusion\""),
       number("porosity", slot<&C::rock, &C::Rock::porosity>(), plain, Range{0.0, 1.0, true, false, "from 0 to below 1"}, Need::never, "for fluid.leak_off = \"diffusion\""),
       number("pore_compressibility", slot<&C::rock, &C::Rock::pore_compressibility>(), compressibility, not_negative, Need::never, "of pores and what fills them, for diffusion"),
@@ -221,11 +222,13 @@ std::vector<TableSpec> make_tables() {
       number("xx", slot<&C::stress, &Sym2::xx>(), pressure, any, Need::never, "far-field effective stress, tension positive"),
       number("yy", slot<&C::stress, &Sym2::yy>(), pressure, any, Need::never, "far-field effective stress, tension positive"),
       number("xy", slot<&C::stress, &Sym2::xy>(), pressure, any, Need::never, "far-field shear stress"),
+      number("gradient_xx", slot<&C::stress_gradient, &Sym2::xx>(), pressure_gradient, any, Need::never, "change of xx per metre of depth (-y); negative: compression grows downwards"),
+      number("gradient_yy", slot<&C::stress_gradient, &Sym2::yy>(), pressure_gradient, any, Need::never, "change of yy per metre of depth; the rock gets the weight per volume that bears it"),
     }},
     {"fluid", {
       number("bulk_modulus", slot<&C::fluid, &C::Fluid::bulk_modulus>(), pressure, stiffness, Need::never, "bulk modulus of the fluid"),
       number("density", slot<&C::fluid, &C::Fluid::density>(), density, positive, Need::never, "mass density of the fluid at the initial pressure"),
-      number("initial_pressure", slot<&C::fluid, &C::Fluid::initial_pressure>(), pressure, any, Need::never, "of the fluid before pumping"),
+      number("initial_pressure", slot<&C::fluid, &C::Fluid::initial_pressure>(), pressure, any, Need::never, "of the fluid before pumping", "rock.pore_pressure"),
       choice("wets", slot<&C::fluid, &C::Fluid::wets>(), {"broken"}, "which cohesive elements the fluid enters"),
       number("viscosity", slot<&C::fluid, &C::Fluid::viscosity>(), viscosity, not_negative, Need::never, "along the fracture, in the quasi-static regime"),
       number("cavitation_pressure", slot<&C::fluid, &C::Fluid::cavitation_pressure>(), pressure, any, Need::never, "below it the fluid boils, in the quasi-static regime", "0, or 5 MPa below rock.pore_pressure where that is small"),

@@ -113,14 +113,15 @@ CRACKLE_KERNEL double screened_viscous_forces(const TriangleRun& r, const PlaneS
 
 }  // namespace
 
-Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sym2 in_situ_stress,
-           const Damping& damping)
+Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density,
+           const InSituStress& in_situ_stress, const Damping& damping)
     : stiffness_(stiffness),
       density_(density),
+      weight_(in_situ_stress.gradient.yy),
       viscous_(damping.viscosity > 0.0 || damping.ratio > 0.0),
       inverse_shape_(mesh.triangles.size()),
       area_(mesh.triangles.size()),
-      in_situ_(mesh.triangles.size(), in_situ_stress) {
+      in_situ_(mesh.triangles.size()) {
   if (viscous_) viscosity_.resize(mesh.triangles.size());
   // Young's modulus in plane strain from the stiffness, for the critical viscosity only.
   const double mu = stiffness.c66;
@@ -133,6 +134,8 @@ Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sy
     const double twice = cross(d1, d2);
     inverse_shape_[t] = {d2.y / twice, -d2.x / twice, -d1.y / twice, d1.x / twice};
     area_[t] = 0.5 * twice;
+    const double depth = -mesh.vertices[at(v[0])].y - (d1.y + d2.y) / 3.0;  // of the centroid
+    in_situ_[t] = in_situ_stress.origin + depth * in_situ_stress.gradient;
     if (viscous_) {
       const double h =
           std::sqrt(4.0 / std::sqrt(3.0) * area_[t]);  // edge of the equilateral triangle of this area
@@ -156,14 +159,27 @@ TriangleRun Bulk::run_of(State& state, Index begin, Index end) const {
 
 double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) const {
   const TriangleRun run = run_of(state, begin, end);
-  return viscous_ ? viscous_forces(run, stiffness_, forces) : elastic_forces(run, stiffness_, forces);
+  const double power =
+      viscous_ ? viscous_forces(run, stiffness_, forces) : elastic_forces(run, stiffness_, forces);
+  add_weight(begin, end, forces);
+  return power;
 }
 
 double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces, const StressScreen& screen,
                            std::uint8_t* stressed) const {
   const TriangleRun run = run_of(state, begin, end);
-  return viscous_ ? screened_viscous_forces(run, stiffness_, forces, screen, stressed)
-                  : screened_elastic_forces(run, stiffness_, forces, screen, stressed);
+  const double power = viscous_ ? screened_viscous_forces(run, stiffness_, forces, screen, stressed)
+                                : screened_elastic_forces(run, stiffness_, forces, screen, stressed);
+  add_weight(begin, end, forces);
+  return power;
+}
+
+void Bulk::add_weight(Index begin, Index end, Vec2* forces) const {
+  if (weight_ == 0.0) return;
+  for (Index t = begin; t < end; ++t) {
+    const double share = weight_ * area_[at(t)] / 3.0;
+    for (Index i = 0; i < 3; ++i) forces[3 * (t - begin) + i].y += share;
+  }
 }
 
 std::array<Vec2, 3> Bulk::triangle_forces(const State& state, Index t) const {
@@ -176,6 +192,7 @@ std::array<Vec2, 3> Bulk::triangle_forces(const State& state, Index t) const {
   } else {
     elastic_forces(run, stiffness_, forces.data());
   }
+  add_weight(t, t + 1, forces.data());
   return forces;
 }
 
@@ -203,7 +220,10 @@ double Bulk::strain_energy(const State& state) const {
       const Sym2 e = green_strain(gradient(inverse_shape_[at(t)], state.displacement[at(n[0])],
                                            state.displacement[at(n[1])], state.displacement[at(n[2])]));
       const Sym2 s = 0.5 * stiffness_.stress(e) + in_situ_[at(t)];
-      sum += area_[at(t)] * (s.xx * e.xx + s.yy * e.yy + 2.0 * s.xy * e.xy);
+      const double rise =
+          (state.displacement[at(n[0])].y + state.displacement[at(n[1])].y + state.displacement[at(n[2])].y) /
+          3.0;
+      sum += area_[at(t)] * (s.xx * e.xx + s.yy * e.yy + 2.0 * s.xy * e.xy - weight_ * rise);
     }
     return sum;
   });

@@ -194,6 +194,8 @@ Onset expected_onset(const Scene& scene, double end_time) {
   onset.wall_pressure = hubbert_willis_pressure(scene.stress, scene.cohesive.tensile_strength);
   onset.end_pressure = hole.pressure(injected);
   onset.time = time_of_volume(scene.pump, std::max(0.0, hole.injected(onset.wall_pressure)), end_time);
+  onset.wall_pressure += scene.pore_pressure;
+  onset.end_pressure += scene.pore_pressure;
   return onset;
 }
 

@@ -87,8 +87,8 @@ double Simulation::longest_joint_edge(const Mesh& mesh) {
 
 Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)),
-      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density, scene_.stress,
-            scene_.damping) {
+      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density,
+            {scene_.stress, scene_.stress_gradient}, scene_.damping) {
   // First, while there is little else in memory: the factorisation is the largest thing of all.
   const std::vector<Vec2> displacement = geostatic_displacement();
   const bool split = scene_.law && !scene_.insertion.on_demand;
@@ -129,8 +129,8 @@ Simulation::Simulation(Scene scene)
 Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     : scene_(std::move(scene)),
       state_(std::move(state)),
-      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density, scene_.stress,
-            scene_.damping),
+      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density,
+            {scene_.stress, scene_.stress_gradient}, scene_.damping),
       stable_(memory.stable),
       stressed_(std::move(memory.stressed)),
       slowed_(memory.slowed),
@@ -499,7 +499,7 @@ double Simulation::stable_limit() const {
 }
 
 double Simulation::wellbore_pressure() const {
-  return state_.fluid.cavities.empty() ? 0.0 : state_.fluid.cavities.front().pressure;
+  return state_.fluid.cavities.empty() ? 0.0 : scene_.pore_pressure + state_.fluid.cavities.front().pressure;
 }
 
 void Simulation::move_nodes(double dt) {

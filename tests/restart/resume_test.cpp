@@ -6,7 +6,10 @@
 
 #include <csignal>
 #include <fstream>
+#include <sstream>
 
+#include "crackle/io/checkpoint.hpp"
+#include "crackle/state/members.hpp"
 #include "process.hpp"
 
 namespace crackle_test {
@@ -131,6 +134,53 @@ TEST_F(Resume, LeavesTheSameBytesInFieldTime) {
   EXPECT_EQ(resume("parts").code, 0);
   expect_same_results(path("parts"), path("whole"));
 }
+
+// Joints that slide and break while the run is interrupted, three times, with the fluid in some of them.
+class ResumeWithJoints : public Resume, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ResumeWithJoints, LeavesTheSameBytes) {
+  write("case.toml", std::string(good_case) + R"(
+[[joint_sets]]
+density = "150 1/m2"
+length_mean = "60 mm"
+region_radius = "0.3 m"
+clear_distance = "20 mm"
+seed = 2
+residual_friction_angle = "10 deg"
+)");
+  std::vector<std::string> joints;
+  for (std::stringstream words(GetParam()); joints.size() < 4;) {
+    joints.emplace_back("--set");
+    std::getline(words, joints.emplace_back(), ' ');
+  }
+  ASSERT_EQ(run("whole", joints).code, 0);
+  const auto expect_slips_under_way = [&](const std::string& checkpoint) {
+    crackle::SlipMemory slips;
+    crackle::unpack_checkpoint(read_text(path("parts/" + checkpoint)), checkpoint,
+                               crackle::columns_of(slips, "state/slips"));
+    std::printf("%s: %zu edges of %zu slip events under way\n", checkpoint.c_str(), slips.edges.size(),
+                slips.events.size());
+    EXPECT_GT(slips.events.size(), 0U) << "nothing slides just then";
+  };
+  EXPECT_EQ(interrupted_run("parts", 14, joints).code, 75);
+  expect_slips_under_way("checkpoint_a.h5");
+  EXPECT_EQ(interrupted_resume("parts", 17, "2").code, 75);
+  expect_slips_under_way("checkpoint_b.h5");
+  const std::string events = read_text(path("parts/events.csv")), all = read_text(path("whole/events.csv"));
+  for (const char* kind : {",slip,", ",breaking,"}) {
+    EXPECT_THAT(events, HasSubstr(kind));
+    EXPECT_THAT(all.substr(events.size()), HasSubstr(kind));
+  }
+  EXPECT_EQ(interrupted_resume("parts", 19, "1").code, 75);
+  expect_slips_under_way("checkpoint_a.h5");
+  EXPECT_EQ(resume("parts", "2").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ResumeWithJoints,
+                         testing::Values("cohesive.insertion=all fluid.joints=whole",
+                                         "cohesive.insertion=on_demand fluid.joints=whole",
+                                         "cohesive.insertion=on_demand fluid.joints=edge"));
 
 TEST_F(Resume, WritesACheckpointWhenAsked) {
   Process process(arguments("out"), path("process"));

@@ -124,7 +124,8 @@ struct Case {
     std::string outer = "fixed";  ///< "fixed" or "absorbing"
   } boundary;
 
-  Sym2 stress;  ///< far-field effective stress [Pa], tension positive: [stress] xx, yy, xy
+  Sym2 stress;           ///< far-field effective stress [Pa], tension positive: [stress] xx, yy, xy
+  Sym2 stress_gradient;  ///< its change per metre of depth (−y) [Pa/m]: [stress] gradient_xx, gradient_yy
 
   struct PumpStage {
     double from = 0.0;  ///< [s]

@@ -3,7 +3,10 @@
 // Constant-strain triangles in the reference configuration, with finite rotation:
 //   F = I + ∂u/∂X,  E = ½(FᵀF − I),  S = C:E + S₀ + μᵥ Ė,  Ė = sym(Fᵀ ∂v/∂X),
 //   force on corner i:  f_i = −A₀ F S ∇N_i                          (total Lagrangian, per metre)
-// S₀ is the in-situ stress: a body in equilibrium with it needs no steps to settle.
+// S₀ is the in-situ stress: a body in equilibrium with it needs no steps to settle. Where it grows with
+// depth, S₀ = S(origin) − y ∂S, the rock has the weight that bears it, ∂S_yy per volume (buoyant, as stresses
+// are effective), a third of each triangle's on each corner. In equilibrium exactly: ∫ S₀ ∇N = S₀(centroid) A
+// ∇N.
 //
 // | parameter | unit | meaning                                                         |
 // |-----------|------|-----------------------------------------------------------------|
@@ -26,6 +29,13 @@ struct StressScreen {
   double tan_friction = 0.0;
 };
 
+/// Effective stress of the rock before anything is done to it [Pa], tension positive.
+struct InSituStress {
+  InSituStress(Sym2 at_origin = {}, Sym2 per_depth = {}) : origin(at_origin), gradient(per_depth) {}
+  Sym2 origin;
+  Sym2 gradient;  ///< change per metre of depth, which is −y [Pa/m]; its xy is 0
+};
+
 struct TriangleRun;
 
 /// Rock between the fractures: reference geometry and material of every triangle.
@@ -38,7 +48,7 @@ class Bulk {
     double ratio = 0.0;
   };
 
-  Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, Sym2 in_situ_stress,
+  Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, const InSituStress& in_situ_stress,
        const Damping& damping);
 
   bool viscous() const { return viscous_; }
@@ -50,7 +60,7 @@ class Bulk {
   const PlaneStiffness& stiffness() const { return stiffness_; }
 
   /// Forces [N/m] on the three corners of triangles [begin, end), in corner order, written (not
-  /// added) to forces[3 (t − begin) + i]. Writes state.strain_rate when viscous.
+  /// added) to forces[3 (t − begin) + i], weight included. Writes state.strain_rate when viscous.
   /// @return viscous dissipation of the last step times 1/time_step [W/m]
   double corner_forces(State& state, Index begin, Index end, Vec2* forces) const;
   /// The same; also marks with 1 in stressed[t − begin] every triangle that passes the screen, others with 0.
@@ -67,7 +77,7 @@ class Bulk {
     return rows(triangle, {mu, 0.0, mu, 0.0, 0.0, 0.5 * mu});
   }
 
-  /// Recoverable energy of all triangles [J/m], from the in-situ state: Σ A₀ (½ E:C:E + S₀:E).
+  /// Recoverable energy of all triangles [J/m], from the in-situ state: Σ A₀ (½ E:C:E + S₀:E − weight · u).
   double strain_energy(const State& state) const;
 
   /// Cauchy stress in a triangle [Pa], without its viscous part.
@@ -82,9 +92,11 @@ class Bulk {
  private:
   std::array<double, 3> rows(Index triangle, const PlaneStiffness& c) const;
   TriangleRun run_of(State& state, Index begin, Index end) const;
+  void add_weight(Index begin, Index end, Vec2* forces) const;
 
   PlaneStiffness stiffness_;
   double density_;
+  double weight_;  // of the rock per volume, along y [N/m3]
   bool viscous_ = false;
   std::vector<std::array<double, 4>> inverse_shape_;  // rows ∇N_1, ∇N_2
   std::vector<double> area_;

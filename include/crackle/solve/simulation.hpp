@@ -39,7 +39,8 @@ struct Scene {
   PlaneStiffness stiffness;
   std::optional<PlaneStiffness> triangle_stiffness;  ///< where it is not the rock's, see compensated()
   double density = 0.0;                              ///< [kg/m3]
-  Sym2 stress;                                       ///< in situ, effective [Pa]
+  Sym2 stress;                                       ///< in situ, effective, at the origin [Pa]
+  Sym2 stress_gradient;                              ///< its change per metre of depth, −y; xy is 0 [Pa/m]
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
   CohesiveMaterial cohesive;
@@ -53,7 +54,8 @@ struct Scene {
   bool joints_edge_by_edge =
       false;  ///< the fluid enters a joint's edges as they open; else a whole joint at once
   std::optional<CompressibleFluid> fluid;
-  double initial_pressure = 0.0;  ///< of the fluid [Pa]
+  double initial_pressure = 0.0;  ///< of the fluid, above pore_pressure [Pa]
+  double pore_pressure = 0.0;     ///< of the formation: only what is told of pressures has it added [Pa]
   Pump pump;
   bool fast_forward = false;  ///< the elastic ramp by linear solves, where it holds
   double thickness = 1.0;     ///< for magnitudes [m]
@@ -113,7 +115,7 @@ class Simulation {
   Index geostatic_slips() const { return geostatic_slips_; }
   /// Elements inserted on demand that could not bear at once what their edge bore: forces jumped there.
   Index rough_insertions() const { return rough_insertions_; }
-  double wellbore_pressure() const;  ///< [Pa]; 0 without fluid
+  double wellbore_pressure() const;  ///< with Scene::pore_pressure [Pa]; 0 without fluid
 
   /// End of the elastic ramp [s], up to which the state follows from static solves; 0: no ramp. It is
   /// there where elements come on demand, no crack is cut, the boundary is fixed, no edge is at its threshold

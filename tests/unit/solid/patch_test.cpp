@@ -115,5 +115,69 @@ TEST(Patch, UniformStressWithElements) {
   }
 }
 
+// Stress that grows with depth, borne by the rock's weight: nothing moves.
+TEST(Patch, StressThatGrowsWithDepth) {
+  for (const MeshPattern pattern : patterns) {
+    for (const bool on_demand : {false, true}) {
+      Scene scene = granite::scene(patch(pattern));
+      scene.stress = {-7.05e6, -4.9e6, 1.3e6};
+      scene.stress_gradient = {-0.4e6, -0.7e6, 0.0};
+      scene.law = find_law("evans_marathe");
+      scene.cohesive = granite::cohesive();
+      scene.insertion.on_demand = on_demand;
+      Simulation simulation(scene);
+      const double imbalance = simulation.imbalance();
+      for (int i = 0; i < 100; ++i) simulation.step(0.8 * simulation.stable().limit);
+      double moved = 0.0, off = 0.0;
+      for (const Vec2 u : simulation.state().displacement) moved = std::max(moved, norm(u));
+      for (Index t = 0; t < scene.mesh->triangle_count(); ++t) {
+        const Sym2 there = scene.stress + -granite::centroid(*scene.mesh, t).y * scene.stress_gradient;
+        const Sym2 now = simulation.bulk().stress(simulation.state(), t);
+        off = std::max(off, granite::larger_part(granite::difference(now, there)) / 7.05e6);
+      }
+      std::printf(
+          "growing stress, elements %s: imbalance %.1e; after 100 steps moved %.1e m, stress off by %.1e\n",
+          on_demand ? "on demand" : "on all edges", imbalance, moved, off);
+      EXPECT_LT(imbalance, 1e-12);
+      EXPECT_LT(moved, 1e-15);
+      EXPECT_LT(off, 1e-10);
+    }
+  }
+}
+
+// A column that is held at its top hangs and swings: with its weight in it the energy stays.
+TEST(Patch, WeightIsInTheLedger) {
+  const double gradient = -1e6;
+  Mesh body = structured_rectangle({0, -2}, {1, 0}, 8, 16, MeshPattern::cross);
+  Scene scene = granite::scene(granite::with_free_sides(std::move(body), [](Vec2 x) { return x.y < -1e-9; }));
+  scene.stress_gradient = {0.0, gradient, 0.0};
+  Simulation simulation(scene);
+  State& state = simulation.state();
+  Index foot = 0;
+  for (Index n = 0; n < state.node_count(); ++n) {
+    if (state.node_reference(n).y < state.node_reference(foot).y) foot = n;
+  }
+  // From standing, -w d at the depth d, to hanging, w (L - d): w L more everywhere.
+  const double e = granite::young_modulus / (1.0 - granite::poisson_ratio * granite::poisson_ratio);
+  const double expected = gradient * 2.0 * 2.0 / e, found = state.displacement[at(foot)].y;
+  std::printf("column that hangs by its top: its foot %.4e m lower, %.4e by theory of slender ones\n", -found,
+              -expected);
+  EXPECT_NEAR(found / expected, 1.0, 0.05);
+  for (std::size_t n = 0; n < state.velocity.size(); ++n) {
+    if (state.inverse_mass[n] > 0.0) state.velocity[n] = {0.0, -0.1};
+  }
+  const auto total = [](const Energies& now) { return now.kinetic + now.strain; };
+  const double at_first = total(simulation.step_and_account(0.5 * simulation.stable_limit()));
+  double off = 0.0, lowest = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    off = std::max(
+        off, std::abs(total(simulation.step_and_account(0.5 * simulation.stable_limit())) / at_first - 1.0));
+    lowest = std::min(lowest, state.displacement[at(foot)].y - found);
+  }
+  std::printf("swings by %.2e m, energy off by %.1e\n", -lowest, off);
+  EXPECT_LT(lowest, 0.2 * expected);
+  EXPECT_LT(off, 1e-3);
+}
+
 }  // namespace
 }  // namespace crackle
