@@ -167,9 +167,9 @@ residual_friction_angle = "10 deg"
   EXPECT_EQ(interrupted_resume("parts", 17, "2").code, 75);
   expect_slips_under_way("checkpoint_b.h5");
   const std::string events = read_text(path("parts/events.csv")), all = read_text(path("whole/events.csv"));
+  EXPECT_NE(events.find(",breaking,"), std::string::npos) << "it breaks already";
   for (const char* kind : {",slip,", ",breaking,"}) {
-    EXPECT_THAT(events, HasSubstr(kind));
-    EXPECT_THAT(all.substr(events.size()), HasSubstr(kind));
+    EXPECT_NE(all.find(kind, events.size()), std::string::npos) << kind << " comes after that too";
   }
   EXPECT_EQ(interrupted_resume("parts", 19, "1").code, 75);
   expect_slips_under_way("checkpoint_a.h5");
