@@ -5,7 +5,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import look
-from events_figure import groups
+from events_figure import groups, lowest_shown, say_below
 
 
 def draw(run, path, b=None, completeness=None):
@@ -72,6 +72,8 @@ def draw_exceeding(axes, magnitude, b, completeness):
     exceeding = np.arange(known.size, 0, -1)
     axes.step(known, exceeding, where="post", color=look.INK, linewidth=1.2)
     axes.set_yscale("log")
+    axes.set_xlim(left=lowest_shown(known) - 0.1)
+    say_below(axes, int((known < lowest_shown(known)).sum()))
     if b is not None and completeness is not None:
         above = np.count_nonzero(known >= completeness)
         ends = np.array([completeness, completeness + np.log10(max(above, 1)) / b])

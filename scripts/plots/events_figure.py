@@ -46,6 +46,17 @@ def with_energy(run):
     return np.isfinite(run.events["magnitude"])
 
 
+def lowest_shown(magnitude):
+    """Where an axis of magnitudes begins: a few events of next to no energy, cut off by the run's end for example, would
+    press all others together."""
+    return max(magnitude.min(), np.percentile(magnitude, 2) - 1.0)
+
+
+def say_below(axes, count):
+    if count:
+        axes.text(0.01, 0.02, f"{count} below", transform=axes.transAxes, fontsize=8, color="#5b6873")
+
+
 def marker_sizes(magnitude):
     """Areas [pt²]: doubled by each 0.5 of magnitude, from the smallest but 2 % on."""
     known = magnitude[np.isfinite(magnitude)]
@@ -79,6 +90,11 @@ def draw_magnitudes(axes, run):
         chosen = chosen & with_energy(run)
         axes.scatter(run.events["time_s"][chosen] * 1e3, run.events["magnitude"][chosen], s=11,
                      marker=look.MODE_MARKERS[mode], color=MODE_FILLS[mode], alpha=0.75, linewidths=0, label=name)
+    known = run.events["magnitude"][with_energy(run)]
+    if known.size:
+        low = lowest_shown(known)
+        axes.set_ylim(bottom=low - 0.1)
+        say_below(axes, int((known < low).sum()))
 
 
 def draw_counts(axes, run):
@@ -86,13 +102,15 @@ def draw_counts(axes, run):
     if magnitude.size == 0:
         look.say_empty(axes, "no event has an energy")
         return
-    bins = np.arange(np.floor(magnitude.min() * 5.0) / 5.0, magnitude.max() + 0.2, 0.2)
+    low = lowest_shown(magnitude)
+    bins = np.arange(np.floor(low * 5.0) / 5.0, magnitude.max() + 0.2, 0.2)
     if len(bins) < 2:
         bins = bins[0] + np.array([0.0, 0.2])
     shown = groups(run)
     parts = [run.events["magnitude"][chosen & with_energy(run)] for _, chosen in shown.values()]
     axes.hist(parts, bins=bins, stacked=True, color=[MODE_FILLS[mode] for mode in shown],
               label=[name for name, _ in shown.values()], edgecolor="white", linewidth=0.6)
+    say_below(axes, int((magnitude < bins[0]).sum()))
     median = np.median(magnitude)
     axes.axvline(median, color=look.INK, linewidth=1.0, linestyle=(0, (4, 2)))
     axes.set_title(f"median {median:.2f}", loc="right", fontsize=9, color="#5b6873")

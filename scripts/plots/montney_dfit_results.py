@@ -96,7 +96,7 @@ def draw_pressure(runs, rows, path):
     curves.text(curves.get_xlim()[1], closure, f"least total stress {closure:.2f} MPa ", fontsize=8, ha="right", va="top",
                 color="#5b6873")
     look.name_axes(curves, "Total pressure in the wellbore, 1 m³/min per metre", "time [ms]", "pressure [MPa]")
-    curves.legend(loc="lower right", fontsize=8)
+    curves.legend(loc="upper right", fontsize=8)
     x = sorted(THEORY)
     radii.plot(x, [THEORY[r] for r in x], "-", color=look.INK, linewidth=1.0, label="cohesive theory, quasi-static")
     radii.plot(x, [THEORY[r] for r in x], "o", color=look.INK, markerfacecolor="white", markersize=7)
