@@ -178,13 +178,13 @@ def draw_fractures(runs, path, after=0.16e-3):
         axes.set_title(f"{name.split('-')[0]}, {'joints healed' if 'healed' in name else 'joints'}", loc="left", fontsize=10)
         axes.set_title(f"{time * 1e3:.2f} ms = breakdown {(time - run.summary['breakdown_time_s']) * 1e3:+.2f} ms", loc="right",
                        fontsize=8.5, color="#5b6873")
-    figure.colorbar(image, ax=grid, extend="max", shrink=0.6).set_label("velocity magnitude [m/s]")
+    figure.colorbar(image, ax=grid, extend="max", shrink=0.6, aspect=40).set_label("velocity magnitude [m/s]")
     figure.supxlabel("x [mm]", fontsize=9)
     figure.supylabel("y [mm]", fontsize=9)
     handles = [Line2D([], [], color=look.MODE_COLORS[mode], linewidth=1.8, label=f"broken, {name}") for mode, name in MODES.items()]
     handles += [Line2D([], [], color=fractures_figure.JOINT_COLOR, linewidth=width, label=name)
                 for width, name in ((0.9, "joint"), (1.8, "wet joint"))]
-    figure.legend(handles=handles, loc="outside lower center", ncol=len(handles))
+    grid[0][0].legend(handles=handles, loc="lower left", fontsize=8, frameon=True, framealpha=0.9, edgecolor="none")
     look.save(figure, path)
 
 
