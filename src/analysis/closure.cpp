@@ -94,17 +94,19 @@ Line line_before(const FallOff& f, std::size_t point, double decades) {
   return fit_line(g.subspan(first, end - first), p.subspan(first, end - first), f.point_error(point));
 }
 
-/// From the onset to where pressure leaves the line before it, two points in a row.
+/// From the onset to where pressure leaves the line through the points up to there, two points in a row.
 std::size_t last_on_line(const FallOff& f, std::size_t onset) {
   constexpr double before = 0.3;  // decades
   constexpr double deviations = 4.0;
-  const Line line = line_before(f, onset, before);
   const double limit = f.elapsed[onset] * std::pow(10.0, 0.5 * f.window);
-  const auto left = [&](std::size_t i) {
+  const auto left = [&](const Line& line, std::size_t i) {
     return line.at(f.g[i]) - f.pressure[i] > deviations * std::hypot(line.scatter, line.error_at(f.g[i]));
   };
   std::size_t i = onset;
-  while (i + 2 < f.size() && f.elapsed[i + 1] <= limit && !(left(i + 1) && left(i + 2))) ++i;
+  for (; i + 2 < f.size() && f.elapsed[i + 1] <= limit; ++i) {
+    const Line line = line_before(f, i, before);
+    if (left(line, i + 1) && left(line, i + 2)) break;
+  }
   return i;
 }
 

@@ -30,6 +30,9 @@ void check(const QuasiStaticScene& scene) {
     require(wing.open >= 1 && wing.open < wing.path.size(), "a wing needs an open edge and one ahead of it");
   require(scene.tensile_strength > 0.0 && scene.fracture_energy > 0.0,
           "tensile strength and fracture energy have to be positive");
+  require(
+      scene.edges_per_zone >= 2.0,
+      "a strength that the mesh does not resolve stops the fracture: edges_per_zone has to be 2 at least");
   require(scene.closure.residual_aperture > 0.0,
           "residual aperture has to be positive: a mated fracture without any would never let fluid in");
   require(scene.fluid.compressibility > 0.0, "the fluid needs a compressibility");

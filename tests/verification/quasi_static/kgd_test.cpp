@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "../../acceptance.hpp"
 #include "wing.hpp"
 
 namespace crackle {
@@ -62,13 +63,33 @@ Found toughness_vertex(double step, double confinement, Wetting wetting = Wettin
 TEST(Kgd, ToughnessVertex) {
   double free_pressure = 0.0;
   for (const double confinement : {0.0, 9.44e6}) {
-    for (const double step : {0.5, 0.25}) toughness_vertex(step, confinement);
+    for (const double step : {0.5, 0.25}) {
+      const Found found = toughness_vertex(step, confinement);
+      if (step == 0.25) {
+        accept(
+            4,
+            text("K vertex, confined by %.2f MPa, h of 1/36 of the length: p, w, length", confinement * 1e-6),
+            "1, 1, 2 %",
+            text("%+.2f, %+.2f, %+.2f %%", found.pressure.mean(), found.opening.mean(), found.length.mean()),
+            std::abs(found.pressure.mean()) <= 1.0 && std::abs(found.opening.mean()) <= 1.0 &&
+                std::abs(found.length.mean()) <= 2.0);
+      }
+    }
     const Found found = toughness_vertex(0.125, confinement);
     EXPECT_LT(found.pressure.rms(), 1.0);
     EXPECT_LT(found.opening.rms(), 1.0);
     EXPECT_LT(std::abs(found.length.mean()), 2.0);
     EXPECT_LT(found.defect, 1e-8);
     if (confinement == 0.0) free_pressure = found.pressure.mean();
+    accept(
+        4,
+        text("K vertex, confined by %.2f MPa, h of 1/72 of the length: p, w, length; p without confinement",
+             confinement * 1e-6),
+        "1, 1, 2; 1 %",
+        text("%+.2f, %+.2f, %+.2f; %+.2f %%", found.pressure.mean(), found.opening.mean(),
+             found.length.mean(), found.pressure.mean() - free_pressure),
+        found.pressure.rms() <= 1.0 && found.opening.rms() <= 1.0 && std::abs(found.length.mean()) <= 2.0 &&
+            std::abs(found.pressure.mean() - free_pressure) <= 1.0);
     EXPECT_NEAR(found.pressure.mean(), free_pressure, 1.0);
   }
 }
@@ -104,6 +125,12 @@ TEST(Kgd, ViscosityVertex) {
   EXPECT_LT(coarse.opening.rms(), 3.0);
   EXPECT_LT(std::abs(coarse.length.mean()), 8.0);
   const Found fine = viscosity_vertex(0.25, 0.005);
+  accept(
+      5, "M vertex, h = 0.25 m, steps of 2 %: p, w, length", "3, 3, 8 %",
+      text("%+.2f, %+.2f, %+.2f %%", coarse.pressure.mean(), coarse.opening.mean(), coarse.length.mean()),
+      coarse.pressure.rms() <= 3.0 && coarse.opening.rms() <= 3.0 && std::abs(coarse.length.mean()) <= 8.0);
+  accept(5, "M vertex, h = 0.25 m, steps of 0.5 %: p", "1 %", text("%+.2f %%", fine.pressure.mean()),
+         fine.pressure.rms() <= 1.0);
   EXPECT_LT(fine.pressure.rms(), 1.0);
   EXPECT_LT(fine.opening.rms(), 1.5);
   EXPECT_LT(fine.defect, 1e-8);
@@ -185,6 +212,15 @@ CarterFound carter(double step, double leak_off, double path) {
 
 TEST(Kgd, CarterLeakOff) {
   const CarterFound weak = carter(0.125, 1e-6, 22.0), strong = carter(0.125, 1e-5, 13.0);
+  const auto report = [](const char* name, const CarterFound& c, double pressure, double efficiency) {
+    accept(
+        6, std::string("Carter leak-off, C_L = ") + name + ", h = 0.125 m: p; efficiency",
+        text("%.0f %%; %.3f", pressure, efficiency),
+        text("%+.2f %%; %+.4f", c.found.pressure.mean(), c.efficiency - c.reference),
+        std::abs(c.found.pressure.mean()) <= pressure && std::abs(c.efficiency - c.reference) <= efficiency);
+  };
+  report("1e-6", weak, 1.0, 0.005);
+  report("1e-5", strong, 4.0, 0.02);
   EXPECT_LT(std::abs(weak.found.pressure.mean()), 1.0);
   EXPECT_NEAR(weak.efficiency, weak.reference, 0.005);
   EXPECT_LT(std::abs(strong.found.pressure.mean()), 4.0);
