@@ -2,6 +2,7 @@
 #include "frames.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "crackle/seismic/listener.hpp"
 
@@ -13,7 +14,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 const std::vector<std::string>& field_names() {
-  static const std::vector<std::string> names{"displacement_m", "velocity_m_s", "stress_Pa", "region"};
+  static const std::vector<std::string> names{"displacement_m", "velocity_m_s", "stress_Pa", "region",
+                                              "damage"};
   return names;
 }
 
@@ -47,7 +49,7 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     Field stress{"stress_Pa", 3, {}};
     stress.values.reserve(corners);
     for (Index t = 0; t < triangles; ++t) {
-      const Sym2 s = simulation.bulk().stress(state, t);
+      const Sym2 s = simulation.stress(t);
       for (const double value : {s.xx, s.yy, s.xy}) stress.add(value);
     }
     frame.cell_fields.push_back(std::move(stress));
@@ -57,6 +59,11 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     region.values.reserve(at(triangles));
     for (const Region r : state.mesh->regions) region.add(static_cast<double>(r));
     frame.cell_fields.push_back(std::move(region));
+  }
+  if (wanted("damage") && !state.damage.of_triangle.empty()) {
+    Field damage{"damage", 1, std::vector<double>(at(triangles))};
+    for (const DamagedTriangle& d : state.damage.triangles) damage.values[at(d.triangle)] = d.damage;
+    frame.cell_fields.push_back(std::move(damage));
   }
   return frame;
 }
@@ -93,6 +100,24 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     pressure.add(cavity >= 0 ? simulation.scene().pore_pressure + state.fluid.cavities[at(cavity)].pressure
                              : 0.0);
     broken.add(is_broken ? 1.0 : 0.0);
+  }
+  // A smeared crack as a line through the middle of its triangle, as long as it stands for.
+  for (const DamagedTriangle& d : state.damage.triangles) {
+    const double half = 0.5 * simulation.bulk().area(d.triangle) / d.length;
+    std::array<Vec2, 3> x;
+    for (Index i = 0; i < 3; ++i) x[at(i)] = state.position(3 * d.triangle + i);
+    const Vec2 centre = (1.0 / 3.0) * (x[0] + x[1] + x[2]), along{-d.normal.y, d.normal.x};
+    const Index p = static_cast<Index>(frame.points.size());
+    frame.points.push_back(centre + -half * along);
+    frame.points.push_back(centre + half * along);
+    frame.lines.push_back({p, p + 1});
+    opening.values.push_back(d.opening);
+    slip.values.push_back(d.slip);
+    damage.values.push_back(d.damage);
+    const double share = d.fracture_energy > 0.0 ? d.sliding_work / d.fracture_energy : 0.0;
+    mode.values.push_back(d.failed ? static_cast<double>(failure_mode(share)) : 0.0);
+    pressure.values.push_back(d.cavity >= 0 ? state.fluid.cavities[at(d.cavity)].pressure : 0.0);
+    broken.values.push_back(d.failed);
   }
   frame.cell_fields = {std::move(opening), std::move(slip),     std::move(damage),
                        std::move(mode),    std::move(pressure), std::move(broken)};

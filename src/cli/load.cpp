@@ -10,6 +10,7 @@
 #include "crackle/cohesive/law.hpp"
 #include "crackle/core/nearest.hpp"
 #include "crackle/core/units.hpp"
+#include "crackle/solid/softening.hpp"
 #include "frames.hpp"
 
 namespace crackle {
@@ -17,6 +18,7 @@ namespace crackle {
 CaseNames registered_names() {
   CaseNames names;
   for (const auto& law : registered_laws()) names.more["cohesive.law"].push_back(law->name());
+  for (const auto& law : registered_softening()) names.more["damage.law"].push_back(law->name());
   return names;
 }
 

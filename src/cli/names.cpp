@@ -5,6 +5,7 @@
 
 #include "crackle/cohesive/law.hpp"
 #include "crackle/io/case.hpp"
+#include "crackle/solid/softening.hpp"
 
 namespace crackle {
 
@@ -22,7 +23,26 @@ std::vector<NameGroup> name_groups() {
       {"Insertion policies",
        "cohesive.insertion",
        {{"all", "every interior edge carries a cohesive element from the start (intrinsic, as Y-Geo)"},
-        {"on_demand", "edges get one when they come near their strength, with the traction they bear"}}});
+        {"on_demand", "edges get one when they come near their strength, with the traction they bear"},
+        {"none", "no elements: the rock breaks by smeared damage of its triangles"}}});
+  groups.push_back({"Damage laws", "damage.law", {}});
+  for (const auto& law : registered_softening()) {
+    groups.back().things.push_back(
+        {law->name(), "traction over strength against opening over G/strength: " + law->description()});
+  }
+  groups.push_back(
+      {"Damage presets",
+       "damage.preset",
+       {{"recommended",
+         "one damage of both directions; open failed triangles bear nothing; element length after Oliver"},
+        {"faithful", "ADaM as published: independent damages, chord through the centroid; it locks"}}});
+  groups.push_back({"Initiation of damage",
+                    "damage.initiation",
+                    {{"mohr_coulomb", "largest principal stress above f_t, or Mohr-Coulomb"},
+                     {"principal", "largest principal stress above f_t"},
+                     {"shear", "largest shear stress above the cohesion"},
+                     {"box", "the first of these two"},
+                     {"ellipse", "(sigma_n/f_t)^2 + (tau/c)^2 above 1 on the worst plane"}}});
   groups.push_back(
       {"Fluid models",
        "fluid.wets",
@@ -50,7 +70,8 @@ std::vector<NameGroup> name_groups() {
                     {{"displacement_m", "of every corner, from the in-situ state"},
                      {"velocity_m_s", "of every corner"},
                      {"stress_Pa", "effective, per triangle: xx, yy, xy"},
-                     {"region", "per triangle: 0 rock"}}});
+                     {"region", "per triangle: 0 rock"},
+                     {"damage", "per triangle, 0 intact to 1, where damage is smeared"}}});
   groups.push_back({"Catalog formats",
                     "crackle catalog --to",
                     {{"csv", "events.csv as it is: local coordinates, SI units"},

@@ -48,6 +48,8 @@ RegimeChoice choose_regime(const Case& scene) {
     require(scene.fracture.notch > 0.0, scene, "it starts from a fracture: give fracture.notch");
     require(scene.mesh.file.empty(), scene, "meshes from a file are not yet taken");
     require(scene.joints.empty() && scene.joint_sets.empty(), scene, "joints are not yet taken");
+    require(scene.cohesive.insertion != "none", scene,
+            "it needs cohesive elements: cohesive.insertion = \"none\" has none");
     require(scene.fluid.viscosity > 0.0, scene, "give fluid.viscosity");
     require(!scene.fluid.pump.empty(), scene, "give a [[fluid.pump]]");
     require(scene.stress_gradient == Sym2{}, scene, "stress gradients are not yet taken");

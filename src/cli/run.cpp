@@ -321,6 +321,12 @@ class Run {
                       simulation_->state().cohesive.count(), simulation_->state().mesh->edge_count(),
                       simulation_->rough_insertions()));
     }
+    if (const DamageState& d = simulation_->state().damage; !d.of_triangle.empty()) {
+      const auto failed =
+          std::ranges::count_if(d.triangles, [](const DamagedTriangle& t) { return t.failed != 0; });
+      say(fmt::format("{} damaged triangles, {} of them failed; {} above the size limit got a lower strength",
+                      d.triangles.size(), failed, d.lowered));
+    }
     say(fmt::format(
         "breakdown {:.3f} MPa at {:.4f} ms, propagation {:.3f} MPa; {} broken elements, {:.3f} m; energy "
         "residual {:.1e}",

@@ -13,6 +13,20 @@ namespace {
 // Below this a triangle would set the time step of the whole run, or nearly have no area.
 constexpr double smallest_angle_deg = 5.0;
 
+void set_damage(const Case& scene, Scene& s) {
+  s.damage.law = find_softening(scene.damage.law);
+  DamageMaterial m;
+  m.tensile_strength = scene.rock.tensile_strength;
+  m.cohesion = scene.rock.cohesion;
+  m.tan_friction = std::tan(scene.rock.friction_angle);
+  m.tan_residual = std::tan(scene.contact.friction_angle);
+  m.fracture_energy_mode1 = scene.rock.fracture_energy_mode1;
+  m.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
+  m.apply(scene.damage.preset == "faithful" ? DamagePreset::faithful : DamagePreset::recommended);
+  m.initiation = *find_initiation(scene.damage.initiation);
+  s.damage.materials = {m};
+}
+
 }  // namespace
 
 PlaneStiffness rock_stiffness(const Case::Rock& rock) {
@@ -58,7 +72,8 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.stress = scene.stress;
   s.stress_gradient = scene.stress_gradient;
   s.damping = {scene.damping.viscosity.value_or(0.0), scene.damping.ratio.value_or(0.0)};
-  s.law = find_law(scene.cohesive.law);
+  const bool damaged = scene.cohesive.insertion == "none";
+  if (!damaged) s.law = find_law(scene.cohesive.law);
   s.cohesive.tensile_strength = scene.rock.tensile_strength;
   s.cohesive.cohesion = scene.rock.cohesion;
   s.cohesive.tan_friction = std::tan(scene.rock.friction_angle);
@@ -72,6 +87,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     const double shape = measure_mesh(*s.mesh).sum_length2_over_area;
     s.triangle_stiffness = compensated(s.stiffness, artificial_compliance(s.cohesive.penalty, shape));
   }
+  if (damaged) set_damage(scene, s);
   s.insertion.on_demand = scene.cohesive.insertion == "on_demand";
   s.insertion.threshold = scene.cohesive.threshold;
   s.contact = {scene.contact.normal_penalty, scene.contact.tangential_penalty, s.cohesive.tan_residual};

@@ -28,6 +28,11 @@ double solve_pressure(const CompressibleFluid& f, double volume, double softness
   return p;
 }
 
+double reference_area(const State& state, Index triangle) {
+  const Vec2 a = state.reference(3 * triangle);
+  return 0.5 * cross(state.reference(3 * triangle + 1) - a, state.reference(3 * triangle + 2) - a);
+}
+
 }  // namespace
 
 Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump)
@@ -49,6 +54,12 @@ Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump)
 
 void Fluid::rebuild(const State& state) {
   loops_ = wetted_loops(state, leaks_);
+  rock_.assign(state.fluid.cavities.size(), 0.0);
+  for (const DamagedTriangle& d : state.damage.triangles) {
+    if (d.cavity < 0) continue;
+    loops_.push_back({d.cavity, {3 * d.triangle + 2, 3 * d.triangle + 1, 3 * d.triangle}});
+    rock_[at(d.cavity)] += reference_area(state, d.triangle);
+  }
   std::map<Index, Index> slot_of_node;
   wet_.clear();
   slots_.assign(loops_.size(), {});
@@ -65,6 +76,7 @@ void Fluid::rebuild(const State& state) {
 
 void Fluid::measure(const State& state) {
   volume_.assign(state.fluid.cavities.size(), 0.0);
+  for (std::size_t c = 0; c < rock_.size(); ++c) volume_[c] -= rock_[c];
   compliance_.assign(state.fluid.cavities.size(), 0.0);
   for (Wet& w : wet_) w.gradient = {};
   for (std::size_t l = 0; l < loops_.size(); ++l) {
@@ -148,9 +160,7 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
     }
   }
   if (reached.empty()) return;
-  measure(state);
-  const double energy_before = measured_energy(state);
-  const double power_before = measured_power(state);
+  const Spread before = before_spread(state);
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const Index e = reached[i];
     if (f.cavity_of_edge[at(e)] >= 0) continue;
@@ -164,14 +174,7 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
     for (const Index w : v) {
       const Index other = f.cavity_of_vertex[at(w)];
       f.cavity_of_vertex[at(w)] = cavity;
-      if (other >= 0 && other != cavity) {  // two cavities come together
-        f.cavities[at(cavity)].mass += f.cavities[at(other)].mass;
-        f.cavities[at(cavity)].injected += f.cavities[at(other)].injected;
-        f.cavities[at(cavity)].work += f.cavities[at(other)].work;
-        f.cavities[at(other)] = {};
-        std::replace(f.cavity_of_edge.begin(), f.cavity_of_edge.end(), other, cavity);
-        std::replace(f.cavity_of_vertex.begin(), f.cavity_of_vertex.end(), other, cavity);
-      }
+      if (other >= 0 && other != cavity) enter(state, cavity, other);
       if (other < 0) {  // fresh vertex: on into broken elements that wait there
         for (Index k = edges_of_vertex_first_[at(w)]; k < edges_of_vertex_first_[at(w) + 1]; ++k) {
           const Index next = edges_of_vertex_[at(k)];
@@ -184,11 +187,77 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
       }
     }
   }
+  spread(state, before);
+}
+
+void Fluid::connect_triangles(State& state, std::span<const Index> failed) {
+  FluidState& f = state.fluid;
+  const Mesh& mesh = *state.mesh;
+  std::vector<Index> reached;
+  const auto touches = [&](const DamagedTriangle& d) {
+    return std::ranges::any_of(mesh.triangles[at(d.triangle)],
+                               [&](Index v) { return f.cavity_of_vertex[at(v)] >= 0; });
+  };
+  for (const Index i : failed) {
+    const DamagedTriangle& d = state.damage.triangles[at(i)];
+    if (d.cavity < 0 && touches(d)) reached.push_back(i);
+  }
+  if (reached.empty()) return;
+  const Spread before = before_spread(state);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    DamagedTriangle& d = state.damage.triangles[at(reached[i])];
+    if (d.cavity >= 0) continue;
+    const auto& vertices = mesh.triangles[at(d.triangle)];
+    Index cavity = -1;
+    for (const Index v : vertices) {
+      const Index c = f.cavity_of_vertex[at(v)];
+      if (c >= 0) cavity = cavity < 0 ? c : std::min(cavity, c);
+    }
+    d.cavity = cavity;
+    for (const Index v : vertices) {
+      const Index other = f.cavity_of_vertex[at(v)];
+      f.cavity_of_vertex[at(v)] = cavity;
+      if (other >= 0 && other != cavity) enter(state, cavity, other);
+      for (Index k = edges_of_vertex_first_[at(v)]; k < edges_of_vertex_first_[at(v) + 1]; ++k) {
+        const Edge& edge = mesh.edges[at(edges_of_vertex_[at(k)])];
+        if (edge.kind == EdgeKind::outer) leaks_ = true;
+        if (other >= 0) continue;  // it waited for nothing there
+        for (const Index t : edge.triangle) {
+          const Index next = t >= 0 ? state.damage.of_triangle[at(t)] : -1;
+          if (next >= 0 && state.damage.triangles[at(next)].failed) reached.push_back(next);
+        }
+      }
+    }
+  }
+  spread(state, before);
+}
+
+// A cavity takes up another that it has come to.
+void Fluid::enter(State& state, Index cavity, Index other) const {
+  FluidState& f = state.fluid;
+  f.cavities[at(cavity)].mass += f.cavities[at(other)].mass;
+  f.cavities[at(cavity)].injected += f.cavities[at(other)].injected;
+  f.cavities[at(cavity)].work += f.cavities[at(other)].work;
+  f.cavities[at(other)] = {};
+  std::replace(f.cavity_of_edge.begin(), f.cavity_of_edge.end(), other, cavity);
+  std::replace(f.cavity_of_vertex.begin(), f.cavity_of_vertex.end(), other, cavity);
+  for (DamagedTriangle& d : state.damage.triangles) {
+    if (d.cavity == other) d.cavity = cavity;
+  }
+}
+
+Fluid::Spread Fluid::before_spread(const State& state) {
+  measure(state);
+  return {measured_energy(state), measured_power(state)};
+}
+
+void Fluid::spread(State& state, const Spread& before) {
+  FluidState& f = state.fluid;
   rebuild(state);
   // Fluid that expands into a void which it had not reached does no work on the rock: that energy is
   // lost in the rush, as viscous dissipation; but for what the sudden load does in half a step.
-  const double lost = energy_before - measured_energy(state);
-  const double work = 0.5 * state.time_step * (measured_power(state) - power_before);
+  const double lost = before.energy - measured_energy(state);
+  const double work = 0.5 * state.time_step * (measured_power(state) - before.power);
   state.dissipation.viscous += std::max(0.0, lost - work);
   for (std::size_t c = 0; c < f.cavities.size(); ++c) {
     if (f.cavities[c].mass <= 0.0 || volume_[c] <= 0.0) continue;
@@ -272,6 +341,9 @@ double Fluid::wetted_length(const State& state) const {
   for (Index i = 0; i < state.cohesive.count(); ++i) {
     if (state.fluid.cavity_of_edge[at(state.cohesive.edge[at(i)])] >= 0)
       sum += norm(state.cohesive.direction[at(i)]);
+  }
+  for (const DamagedTriangle& d : state.damage.triangles) {
+    if (d.cavity >= 0) sum += reference_area(state, d.triangle) / d.length;
   }
   return sum;
 }

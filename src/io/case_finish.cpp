@@ -132,6 +132,29 @@ void check_compliance(const Case& scene, const GivenKeys& given) {
                    scene.cohesive.insertion));
 }
 
+void finish_damage(Case& scene, const GivenKeys& given) {
+  if (scene.cohesive.insertion != "none") {
+    for (const char* key : {"damage.law", "damage.preset", "damage.initiation"}) {
+      if (given.has(key)) {
+        fail(given.latest({key, "cohesive.insertion"}),
+             fmt::format(
+                 "{} is of smeared damage, which cohesive.insertion = \"none\" asks for; here it is \"{}\"",
+                 key, scene.cohesive.insertion));
+      }
+    }
+    return;
+  }
+  if (!scene.joints.empty() || !scene.joint_sets.empty()) {
+    fail(given.place("cohesive.insertion"),
+         "cohesive.insertion = \"none\": joints need cohesive elements, take \"on_demand\" or \"all\"");
+  }
+  if (scene.run.regime == "quasi_static")
+    fail(given.place("run.regime"),
+         "run.regime = \"quasi_static\" needs cohesive elements, not insertion = \"none\"");
+  if (scene.damage.initiation.empty())
+    scene.damage.initiation = scene.damage.preset == "faithful" ? "box" : "mohr_coulomb";
+}
+
 /// Two ways to say one thing: the later layer (including file over included file) wins.
 void finish_damping(Case::Damping& damping, const GivenKeys& given) {
   if (damping.viscosity && damping.ratio) {
@@ -189,6 +212,7 @@ void finish_case(ReadCase& read) {
   finish_damping(scene.damping, given);
   finish_bedding(scene.rock, given);
   check_compliance(scene, given);
+  finish_damage(scene, given);
   check_leak_off(scene, given);
   if (scene.cohesive.penalty == 0.0) scene.cohesive.penalty = 20.0 * scene.rock.young_modulus;
   if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;

@@ -174,10 +174,15 @@ std::vector<TableSpec> make_tables() {
     {"cohesive", {
       choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear", "benzeggagh_kenane"}, "softening law of the cohesive elements"),
       choice("calibration", slot<&C::cohesive, &C::Cohesive::calibration>(), {"y_geo", "exact"}, "of the softening length: 3G/f, or so that G is dissipated"),
-      choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all", "on_demand"}, "which edges carry a cohesive element"),
+      choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all", "on_demand", "none"}, "which edges carry a cohesive element; none: the rock breaks by smeared damage"),
       number("threshold", slot<&C::cohesive, &C::Cohesive::threshold>(), plain, fraction, Need::never, "share of its strength at which an edge gets its element on demand"),
       choice("compliance", slot<&C::cohesive, &C::Cohesive::compliance>(), {"kept", "compensated"}, "of the elements on all edges: kept, or made up for by stiffer triangles"),
       number("penalty", slot<&C::cohesive, &C::Cohesive::penalty>(), pressure, not_negative, Need::never, "stiffness times edge length before softening", "20 rock.young_modulus"),
+    }},
+    {"damage", {
+      choice("law", slot<&C::damage, &C::Damage::law>(), {"linear", "exponential", "cubic_step"}, "softening law of damaged triangles"),
+      choice("preset", slot<&C::damage, &C::Damage::preset>(), {"recommended", "faithful"}, "one damage and no stress in open failed triangles; or ADaM as published, which locks where cracks cannot run straight"),
+      choice("initiation", slot<&C::damage, &C::Damage::initiation>(), {"mohr_coulomb", "principal", "shear", "box", "ellipse"}, "where triangles crack", "mohr_coulomb; of \"faithful\": box"),
     }},
     {"contact", {
       number("normal_penalty", slot<&C::contact, &C::Contact::normal_penalty>(), pressure, not_negative, Need::never, "against overlap of broken faces", "cohesive.penalty"),

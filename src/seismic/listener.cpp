@@ -65,4 +65,34 @@ std::vector<SeismicEvent> listen(const State& state, std::span<const Index> brok
   return events;
 }
 
+std::vector<SeismicEvent> listen_to_damage(const State& state, std::span<const Index> failed,
+                                           const SeismicMedium& medium) {
+  std::vector<SeismicEvent> events;
+  for (const Index i : failed) {
+    const DamagedTriangle& d = state.damage.triangles[at(i)];
+    SeismicEvent event;
+    event.time = state.time;
+    event.duration = state.time - d.yield_time;
+    std::array<Vec2, 3> x, reference;
+    for (Index k = 0; k < 3; ++k) {
+      x[at(k)] = state.position(3 * d.triangle + k);
+      reference[at(k)] = state.reference(3 * d.triangle + k);
+    }
+    event.place = (1.0 / 3.0) * (x[0] + x[1] + x[2]);
+    event.mode = failure_mode(d.fracture_energy > 0.0 ? d.sliding_work / d.fracture_energy : 0.0);
+    event.energy = d.kinetic_rise;
+    event.magnitude = magnitude_of_energy(d.kinetic_rise * medium.thickness);
+    event.fracture_energy = d.fracture_energy;
+    event.friction_energy = d.friction_energy;
+    event.length = 0.5 * cross(reference[1] - reference[0], reference[2] - reference[0]) / d.length;
+    event.opening = d.opening;
+    event.slip = d.slip;
+    const Vec2 along{-d.normal.y, d.normal.x};  // the crack's normal is to its right
+    event.moment = moment_of_jump(medium.rock, along, event.length, d.opening, d.slip);
+    event.moment_magnitude = moment_magnitude(scalar_moment(event.moment) * medium.thickness);
+    events.push_back(event);
+  }
+  return events;
+}
+
 }  // namespace crackle

@@ -177,8 +177,7 @@ double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces, c
 void Bulk::add_weight(Index begin, Index end, Vec2* forces) const {
   if (weight_ == 0.0) return;
   for (Index t = begin; t < end; ++t) {
-    const double share = weight_ * area_[at(t)] / 3.0;
-    for (Index i = 0; i < 3; ++i) forces[3 * (t - begin) + i].y += share;
+    for (Index i = 0; i < 3; ++i) forces[3 * (t - begin) + i].y += corner_weight(t);
   }
 }
 
@@ -217,16 +216,20 @@ double Bulk::strain_energy(const State& state) const {
     double sum = 0.0;
     for (Index t = begin; t < end; ++t) {
       const Index* n = &state.node_of_corner[at(3 * t)];
-      const Sym2 e = green_strain(gradient(inverse_shape_[at(t)], state.displacement[at(n[0])],
-                                           state.displacement[at(n[1])], state.displacement[at(n[2])]));
-      const Sym2 s = 0.5 * stiffness_.stress(e) + in_situ_[at(t)];
       const double rise =
-          (state.displacement[at(n[0])].y + state.displacement[at(n[1])].y + state.displacement[at(n[2])].y) /
-          3.0;
-      sum += area_[at(t)] * (s.xx * e.xx + s.yy * e.yy + 2.0 * s.xy * e.xy - weight_ * rise);
+          state.displacement[at(n[0])].y + state.displacement[at(n[1])].y + state.displacement[at(n[2])].y;
+      sum += strain_energy(state, t) - corner_weight(t) * rise;
     }
     return sum;
   });
+}
+
+double Bulk::strain_energy(const State& state, Index t) const {
+  const Index* n = &state.node_of_corner[at(3 * t)];
+  const Sym2 e = green_strain(gradient(inverse_shape_[at(t)], state.displacement[at(n[0])],
+                                       state.displacement[at(n[1])], state.displacement[at(n[2])]));
+  const Sym2 s = 0.5 * stiffness_.stress(e) + in_situ_[at(t)];
+  return area_[at(t)] * (s.xx * e.xx + s.yy * e.yy + 2.0 * s.xy * e.xy);
 }
 
 Sym2 Bulk::stress(const State& state, Index triangle) const {

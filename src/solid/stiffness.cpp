@@ -11,6 +11,15 @@
 
 namespace crackle {
 
+Sym2 PlaneStiffness::strain(Sym2 s) const {
+  // Cofactors of the matrix over (E_xx, E_yy, 2 E_xy).
+  const double xx = c22 * c66 - c26 * c26, xy = c16 * c26 - c12 * c66, xs = c12 * c26 - c22 * c16;
+  const double yy = c11 * c66 - c16 * c16, ys = c12 * c16 - c11 * c26, ss = c11 * c22 - c12 * c12;
+  const double q = 1.0 / (c11 * xx + c12 * xy + c16 * xs);
+  return {q * (xx * s.xx + xy * s.yy + xs * s.xy), q * (xy * s.xx + yy * s.yy + ys * s.xy),
+          0.5 * q * (xs * s.xx + ys * s.yy + ss * s.xy)};
+}
+
 double PlaneStiffness::largest() const {
   // Gershgorin on the matrix over (E_xx, E_yy, sqrt(2) E_xy), whose eigenvalues are those of the tensor.
   const double r2 = std::sqrt(2.0);

@@ -74,6 +74,21 @@ void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& line
       gigapascal(enough), 100.0 * modulus_wanted, std::sqrt(scene.cohesive.penalty / enough)));
 }
 
+// A triangle is at most as long across a crack as its longest height, some edge long.
+void damage_sizes(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  const DamageMaterial& m = scene.damage.materials.front();
+  const auto limit = size_limits(m, *scene.damage.law, scene.stiffness, {1.0, 0.0});
+  const auto look = [&](const char* what, double longest, double size, const char* where) {
+    if (size <= longest) return;
+    lines.push_back(fmt::format(
+        "warning: in {} softening can follow only triangles up to {} ({}: {}): larger ones get a lower "
+        "strength with the same energy, and are counted; take smaller ones, or damage.law = \"linear\"",
+        what, length(longest), where, length(size)));
+  };
+  look("tension", limit[0], mesh.longest_edge, "the longest edge");
+  look("shear", limit[1], mesh.edge, "edges near the wellbore");
+}
+
 double largest_rate(const Pump& pump, double end_time) {
   constexpr int samples = 1000;
   double rate = 0.0;
@@ -187,7 +202,7 @@ Onset expected_onset(const Scene& scene, double end_time) {
   Onset onset;
   const MeshMeasure mesh = measure_mesh(*scene.mesh);
   const double injected = scene.pump.volume(0.0, end_time);
-  if (!scene.fluid || mesh.wellbore_edges == 0 || injected <= 0.0 || !scene.law) return onset;
+  if (!scene.fluid || mesh.wellbore_edges == 0 || injected <= 0.0 || !scene.breaks()) return onset;
   const FilledHole hole{mesh.wellbore_area, scene.stiffness.c66, principal_stress(scene.stress).mean(),
                         *scene.fluid, scene.initial_pressure};
   onset.expected = true;
@@ -200,8 +215,18 @@ Onset expected_onset(const Scene& scene, double end_time) {
 }
 
 std::string scene_error(const Scene& scene) {
-  if (!scene.law) return {};
   const MeshMeasure mesh = measure_mesh(*scene.mesh);
+  if (scene.damage.law) {
+    const double most =
+        size_limits(scene.damage.materials.front(), *scene.damage.law, scene.stiffness, {1.0, 0.0})[0];
+    if (mesh.edge <= most) return {};
+    return fmt::format(
+        "smeared damage is not possible on edges longer than {} (their elastic energy is above the fracture "
+        "energy), "
+        "and those near the wellbore are {} long: take smaller ones",
+        length(most), length(mesh.edge));
+  }
+  if (!scene.law) return {};
   const double longest = scene.law->longest_edge(scene.cohesive);
   if (mesh.edge <= longest) return {};
   return fmt::format(
@@ -218,9 +243,12 @@ std::vector<std::string> scene_warnings(const Scene& scene, double end_time, con
   Lines lines;
   const MeshMeasure mesh = measure_mesh(*scene.mesh);
   if (scene.law) {
-    cohesive_zones(scene, mesh, lines);
     penalty_compliance(scene, mesh, lines);
     coarse_edges(scene, mesh, lines);
+  }
+  if (scene.damage.law) damage_sizes(scene, mesh, lines);
+  if (scene.breaks()) {
+    cohesive_zones(scene, mesh, lines);
     pressure_loss(scene, end_time, lines);
     wall_before_pumping(scene, mesh, lines);
   }

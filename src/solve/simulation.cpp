@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "crackle/core/errors.hpp"
@@ -123,6 +124,19 @@ Simulation::Simulation(Scene scene)
     stable_.limit *= scene_.insertion.step;
     prepare_insertion();
   }
+  if (scene_.damage.law) {
+    begin_damage();
+    for (const CutTriangle& cut : scene_.damage.cut) {
+      damage_->cut(state_, bulk_, cut.triangle, cut.normal);
+      bulk_.drop_viscosity(cut.triangle);
+    }
+    if (fluid_) {
+      std::vector<Index> cut(scene_.damage.cut.size());
+      std::iota(cut.begin(), cut.end(), 0);
+      fluid_->connect_triangles(state_, cut);
+      fluid_->refill(state_, scene_.initial_pressure);
+    }
+  }
   settle();
 }
 
@@ -148,6 +162,7 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     if (!stressed_.empty() && stressed_[at(t)]) block_stressed_[at(t / block_size)] = 1;
   }
   if (!stressed_.empty()) set_screen();
+  if (scene_.damage.law) begin_damage();
   if (scene_.law) cohesive_.emplace(scene_.law, materials_of(scene_));
   if (scene_.contact.normal_penalty > 0.0) {
     contact_.emplace(state_, scene_.contact);
@@ -159,6 +174,12 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
   }
   if (scene_.absorbing_boundary) boundary_.emplace(std::move(memory.boundary));
+}
+
+Sym2 Simulation::stress(Index triangle) const {
+  const auto& numbers = state_.damage.of_triangle;
+  const Index d = numbers.empty() ? -1 : numbers[at(triangle)];
+  return d < 0 ? bulk_.stress(state_, triangle) : state_.damage.triangles[at(d)].stress;
 }
 
 SimulationMemory Simulation::memory() const {
@@ -185,7 +206,8 @@ std::vector<Vec2> Simulation::geostatic_displacement() {
   }
   const StaticSolver solver(scene_.mesh, bulk_, fixed);
   std::vector<Vec2> displacement = solver.displacement(wall_loads(wet, fluid));
-  if (fluid && scene_.fast_forward && scene_.law && scene_.insertion.on_demand && scene_.cracks.empty() &&
+  const bool whole = (scene_.law && scene_.insertion.on_demand) || scene_.damage.law;
+  if (fluid && scene_.fast_forward && whole && scene_.damage.cut.empty() && scene_.cracks.empty() &&
       scene_.joints.empty() && !scene_.absorbing_boundary) {
     find_ramp(solver, wet, fluid, displacement);
   }
@@ -293,7 +315,7 @@ void Simulation::settle() {
     }
     boundary_.emplace(state_, scene_.stiffness, scene_.density, forces);
   }
-  if (geostatic_slips_ > 0 || !scene_.cracks.empty()) relax();
+  if (geostatic_slips_ > 0 || !scene_.cracks.empty() || !scene_.damage.cut.empty()) relax();
   state_.dissipation = {};
   // The residual is not measured against less energy than strains of 3e-7 everywhere hold: while the
   // first wave leaves the wellbore everything is smaller than one step of the pump.
@@ -302,6 +324,7 @@ void Simulation::settle() {
     scale_ += 1e-13 * scene_.stiffness.largest() * bulk_.area(t);
   reference_ = {};
   reference_.strain = bulk_.strain_energy(state_);
+  if (damage_) reference_.strain += damage_->stored_energy_correction(state_, bulk_);
   if (cohesive_) reference_.cohesive = cohesive_->stored_energy(state_);
   if (fluid_) reference_.fluid = fluid_->energy(state_);
 }
@@ -348,6 +371,33 @@ void Simulation::set_screen() {
   // A utilisation of the threshold in opening and slip together is at least its √½ in one of them.
   const double share = std::sqrt(0.5) * scene_.insertion.threshold;
   screen_ = {share * m.tensile_strength, share * m.cohesion, share * m.tan_friction};
+}
+
+void Simulation::begin_damage() {
+  damage_.emplace(scene_.damage.law, scene_.damage.materials, scene_.damage.of_triangle);
+  screen_ = damage_->screen();
+  const std::size_t triangles = scene_.mesh->triangles.size();
+  stressed_.resize(triangles);
+  block_stressed_.resize(block_has_elements_.size());
+  state_.damage.of_triangle.resize(triangles, -1);
+  for (const DamagedTriangle& d : state_.damage.triangles) bulk_.drop_viscosity(d.triangle);
+}
+
+// Triangles that came to their strength in the last step.
+void Simulation::crack_stressed() {
+  std::vector<Index> candidates;
+  for (std::size_t block = 0; block < block_stressed_.size(); ++block) {
+    if (!block_stressed_[block]) continue;
+    const Index begin = static_cast<Index>(block) * block_size;
+    const Index end = std::min(begin + block_size, scene_.mesh->triangle_count());
+    for (Index t = begin; t < end; ++t) {
+      if (stressed_[at(t)] && state_.damage.of_triangle[at(t)] < 0) candidates.push_back(t);
+    }
+  }
+  const std::size_t before = state_.damage.triangles.size();
+  damage_->initiate(state_, bulk_, candidates);
+  for (std::size_t i = before; i < state_.damage.triangles.size(); ++i)
+    bulk_.drop_viscosity(state_.damage.triangles[i].triangle);
 }
 
 void Simulation::prepare_insertion() {
@@ -518,6 +568,16 @@ void Simulation::move_nodes(double dt) {
       block_stressed_[at(block)] =
           std::any_of(stressed, stressed + (end - begin), [](auto s) { return s != 0; });
     }
+    if (!state_.damage.triangles.empty()) {
+      for (Index t = begin; t < end; ++t) {
+        const Index d = state_.damage.of_triangle[at(t)];
+        if (d < 0) continue;
+        for (Index i = 0; i < 3; ++i) {
+          const Vec2 weight{0.0, bulk_.corner_weight(t)};
+          forces[3 * (t - begin) + i] = state_.damage.triangles[at(d)].force[at(i)] + weight;
+        }
+      }
+    }
     if (block_has_elements_[at(block)]) {
       for (Index t = begin; t < end; ++t) {
         add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
@@ -565,12 +625,24 @@ void Simulation::advance(double dt, Energies* account) {
     if (!stressed_.empty()) insert_stressed();
     stopwatch_.lap(Stopwatch::cohesive);
   }
+  if (damage_) {
+    damage_->update(state_, bulk_);
+    crack_stressed();
+    stopwatch_.lap(Stopwatch::cohesive);
+    if (!damage_->newly_failed().empty()) {
+      new_events_ = listen_to_damage(state_, damage_->newly_failed(), medium());
+      stopwatch_.lap(Stopwatch::events);
+      if (fluid_) fluid_->connect_triangles(state_, damage_->newly_failed());
+      stopwatch_.lap(Stopwatch::fluid);
+    }
+  }
   if (contact_) {
     contact_->update(state_);
     stopwatch_.lap(Stopwatch::contact);
   }
   if (cohesive_ && !cohesive_->newly_broken().empty()) {
-    new_events_ = listen(state_, cohesive_->newly_broken(), medium());
+    const auto broke = listen(state_, cohesive_->newly_broken(), medium());
+    new_events_.insert(new_events_.end(), broke.begin(), broke.end());
     stopwatch_.lap(Stopwatch::events);
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
     stopwatch_.lap(Stopwatch::fluid);
@@ -631,6 +703,7 @@ double Simulation::kinetic_energy(const std::vector<Vec2>& before) const {
 Energies Simulation::potential_energies() const {
   Energies e;
   e.strain = bulk_.strain_energy(state_) - reference_.strain;
+  if (damage_) e.strain += damage_->stored_energy_correction(state_, bulk_);
   if (cohesive_) e.cohesive = cohesive_->stored_energy(state_) - reference_.cohesive;
   if (contact_) e.cohesive += contact_->stored_energy(state_);
   if (fluid_) e.fluid = fluid_->energy(state_) - reference_.fluid;

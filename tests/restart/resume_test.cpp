@@ -80,6 +80,16 @@ TEST_F(Resume, LeavesTheSameBytes) {
   expect_same_results(path("parts"), path("whole"));
 }
 
+TEST_F(Resume, LeavesTheSameBytesWithSmearedDamage) {
+  const std::vector<std::string> damage{"--set", "cohesive.insertion=none"};
+  ASSERT_EQ(run("whole", damage).code, 0);
+  EXPECT_EQ(interrupted_run("parts", 15, damage).code, 75);
+  const std::string events = read_text(path("parts/events.csv"));
+  EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 2) << "it breaks already";
+  EXPECT_EQ(resume("parts", "2").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+}
+
 TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
   const std::vector<std::string> on_demand{"--set", "cohesive.insertion=on_demand"};
   ASSERT_EQ(run("whole", on_demand).code, 0);

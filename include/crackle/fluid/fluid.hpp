@@ -17,6 +17,9 @@ namespace crackle {
 /// vertex the loop goes straight from corner to corner, so that it is closed exactly; its area by
 /// Green's theorem (Eq. 6.5) is the cavity's volume and the gradient of that area, times the
 /// pressure, the force on the nodes: work and energy match to round-off.
+///
+/// Where the rock breaks by smeared damage the fluid is in failed triangles: by how much their area has grown
+/// is its volume there, and its pressure acts all round inside them, beside what stress they bear.
 class Fluid {
  public:
   Fluid(const State& state, const CompressibleFluid& fluid, Pump pump);
@@ -36,6 +39,10 @@ class Fluid {
   /// energy that free expansion into them costs is booked as viscous dissipation.
   /// @param broken elements that broke in this step
   void connect(State& state, std::span<const Index> broken);
+
+  /// The same for damaged triangles that failed: the fluid enters those that share a vertex with a cavity.
+  /// @param failed numbers of triangles in state.damage
+  void connect_triangles(State& state, std::span<const Index> failed);
 
   /// From now on an edge of a joint of the mesh is entered only once its faces are apart; else a fracture
   /// that reaches a joint without cohesion wets the whole of it, and those that cross it, at once.
@@ -85,6 +92,12 @@ class Fluid {
     Vec2 gradient;
   };
   bool waits(const State& state, Index edge) const;
+  void enter(State& state, Index cavity, Index other) const;
+  struct Spread {  // what the fluid held and did before it spread
+    double energy, power;
+  };
+  Spread before_spread(const State& state);
+  void spread(State& state, const Spread& before);
   void measure(const State& state);
   double measured_energy(const State& state) const;  // at the volumes last measured
   double measured_power(const State& state) const;   // on the rock, at present velocities [W/m]
@@ -95,6 +108,7 @@ class Fluid {
   std::vector<Loop> loops_;
   std::vector<std::vector<Index>> slots_;  // per loop: slot of each corner's node in wet_
   std::vector<Wet> wet_;
+  std::vector<double> rock_;                        // per cavity: area of wet triangles at rest [m2]
   std::vector<double> volume_, compliance_, push_;  // per cavity: V(x), s, pressure that pushes
   bool leaks_ = false;
   bool joints_as_they_open_ = false;

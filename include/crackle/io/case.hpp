@@ -103,11 +103,18 @@ struct Case {
   struct Cohesive {
     std::string law = "evans_marathe";  ///< a registered law
     std::string calibration = "exact";  ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
-    std::string insertion = "all";      ///< "all" edges from the start, or "on_demand"
+    std::string insertion = "all";      ///< "all" edges from the start, "on_demand", or "none": see damage
     double threshold = 0.7;             ///< of its strength, where an edge gets its element on demand [-]
     std::string compliance = "kept";    ///< of the elements: "kept", or "compensated" by stiffer triangles
     double penalty = 0.0;               ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
   } cohesive;
+
+  /// Smeared damage, where cohesive.insertion is "none".
+  struct Damage {
+    std::string law = "linear";          ///< a registered softening law
+    std::string preset = "recommended";  ///< or "faithful"
+    std::string initiation;              ///< default: the preset's
+  } damage;
 
   struct Contact {
     double normal_penalty = 0.0;      ///< [Pa]; 0: as the cohesive penalty

@@ -32,4 +32,9 @@ struct SeismicMedium {
 std::vector<SeismicEvent> listen(const State& state, std::span<const Index> broken,
                                  const SeismicMedium& medium);
 
+/// Events of the damaged triangles that failed in this step; each is as long as its area over its element
+/// length. @param failed numbers in state.damage
+std::vector<SeismicEvent> listen_to_damage(const State& state, std::span<const Index> failed,
+                                           const SeismicMedium& medium);
+
 }  // namespace crackle

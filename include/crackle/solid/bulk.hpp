@@ -79,6 +79,18 @@ class Bulk {
 
   /// Recoverable energy of all triangles [J/m], from the in-situ state: Σ A₀ (½ E:C:E + S₀:E − weight · u).
   double strain_energy(const State& state) const;
+  /// The same of one triangle, without its weight.
+  double strain_energy(const State& state, Index triangle) const;
+  /// In-situ stress of a triangle [Pa].
+  Sym2 in_situ(Index triangle) const { return in_situ_[static_cast<std::size_t>(triangle)]; }
+  /// Share of a triangle's weight that each of its corners bears, along y [N/m].
+  double corner_weight(Index triangle) const {
+    return weight_ * area_[static_cast<std::size_t>(triangle)] / 3.0;
+  }
+  /// From now on a triangle is not damped.
+  void drop_viscosity(Index triangle) {
+    if (viscous_) viscosity_[static_cast<std::size_t>(triangle)] = 0.0;
+  }
 
   /// Cauchy stress in a triangle [Pa], without its viscous part.
   Sym2 stress(const State& state, Index triangle) const;

@@ -39,6 +39,8 @@ struct PlaneStiffness {
     return {c11 * e.xx + c12 * e.yy + 2.0 * c16 * e.xy, c12 * e.xx + c22 * e.yy + 2.0 * c26 * e.xy,
             c16 * e.xx + c26 * e.yy + 2.0 * c66 * e.xy};
   }
+  /// Strain under a stress: the inverse of stress().
+  Sym2 strain(Sym2 stress) const;
   /// Largest eigenvalue of the stiffness over unit strains [Pa]; the time step depends on it.
   double largest() const;
 };

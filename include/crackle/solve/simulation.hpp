@@ -11,6 +11,7 @@
 #include "crackle/fluid/fluid.hpp"
 #include "crackle/seismic/slip_events.hpp"
 #include "crackle/solid/bulk.hpp"
+#include "crackle/solid/damage.hpp"
 #include "crackle/solve/boundary.hpp"
 #include "crackle/solve/ramp.hpp"
 #include "crackle/solve/stopwatch.hpp"
@@ -24,6 +25,20 @@ struct InsertionPolicy {
   bool on_demand = false;
   double threshold = 0.7;  ///< of the strength (Cohesive::utilisation) at which an edge gets its element
   double step = 0.75;      ///< time step over the tied rock's, which leaves room for the elements' penalty
+};
+
+/// A triangle that is cracked from the start.
+struct CutTriangle {
+  Index triangle = -1;
+  Vec2 normal;  ///< of its crack, unit
+};
+
+/// Rock that breaks by smeared damage of its triangles instead of cohesive elements.
+struct DamageChoice {
+  std::shared_ptr<const SofteningLaw> law;  ///< nullptr: none
+  std::vector<DamageMaterial> materials;
+  std::vector<std::uint16_t> of_triangle;  ///< which of the materials; empty: all of the first
+  std::vector<CutTriangle> cut;            ///< ascending
 };
 
 /// An edge of a joint, there from the start: before the geostatic stage, in which it may slip.
@@ -42,7 +57,8 @@ struct Scene {
   Sym2 stress;                                       ///< in situ, effective, at the origin [Pa]
   Sym2 stress_gradient;                              ///< its change per metre of depth, −y; xy is 0 [Pa/m]
   Bulk::Damping damping;
-  std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements, the rock cannot break
+  std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements
+  DamageChoice damage;                     ///< without a law here and there the rock cannot break
   CohesiveMaterial cohesive;
   InsertionPolicy insertion;
   ContactMaterial contact;          ///< of faces that have moved past their partner
@@ -60,6 +76,7 @@ struct Scene {
   bool fast_forward = false;  ///< the elastic ramp by linear solves, where it holds
   double thickness = 1.0;     ///< for magnitudes [m]
   double slip_rate = 1e-2;    ///< at which the slip of a joint is an event [m/s]
+  bool breaks() const { return law != nullptr || damage.law != nullptr; }
 };
 
 /// Energies per metre of thickness [J/m], at full steps; stored ones are changes since the start of
@@ -104,6 +121,9 @@ class Simulation {
   State& state() { return state_; }
   const Scene& scene() const { return scene_; }
   const Bulk& bulk() const { return bulk_; }
+  /// Stress in a triangle [Pa]: Cauchy, or effective in the frame that turns with it where it is damaged.
+  Sym2 stress(Index triangle) const;
+  const Damage* damage() const { return damage_ ? &*damage_ : nullptr; }
   const Cohesive* cohesive() const { return cohesive_ ? &*cohesive_ : nullptr; }
   const Fluid* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
   /// The stable step at the start, and what limits it.
@@ -156,6 +176,8 @@ class Simulation {
   void set_screen();
   void add_tied_edges_at(Index vertex, std::vector<Index>& edges) const;
   void insert_stressed();
+  void begin_damage();
+  void crack_stressed();
   void insert(const std::vector<Index>& edges, std::uint16_t material = 0);
   void insert_joints();
   Energies potential_energies() const;
@@ -167,6 +189,7 @@ class Simulation {
   State state_;
   Bulk bulk_;
   std::optional<Cohesive> cohesive_;
+  std::optional<Damage> damage_;
   std::optional<GeneralContact> contact_;
   std::optional<Fluid> fluid_;
   std::optional<AbsorbingBoundary> boundary_;

@@ -87,6 +87,42 @@ void members(CohesiveElements& c, V&& v) {
 }
 
 template <class V>
+void members(DamagedTriangle& d, V&& v) {
+  v("triangle", d.triangle);
+  v("normal", d.normal);
+  v("length", d.length);
+  v("strength", d.strength);
+  v("history", d.history);
+  v("slip_strain", d.slip_strain);
+  v("offset", d.offset);
+  v("open", d.open);
+  v("failed", d.failed);
+  v("damage", d.damage);
+  v("opening", d.opening);
+  v("slip", d.slip);
+  v("opening_strain", d.opening_strain);
+  v("friction", d.friction);
+  v("stress", d.stress);
+  v("stored", d.stored);
+  v("fracture_energy", d.fracture_energy);
+  v("sliding_work", d.sliding_work);
+  v("dropped", d.dropped);
+  v("friction_energy", d.friction_energy);
+  v("yield_time", d.yield_time);
+  v("kinetic_at_yield", d.kinetic_at_yield);
+  v("kinetic_rise", d.kinetic_rise);
+  v("cavity", d.cavity);
+  v("force", d.force);
+}
+
+template <class V>
+void members(DamageState& d, V&& v) {
+  v("triangles", d.triangles);
+  v("of_triangle", d.of_triangle);
+  v("lowered", d.lowered);
+}
+
+template <class V>
 void members(Cavity& c, V&& v) {
   v("mass", c.mass);
   v("pressure", c.pressure);
@@ -178,6 +214,7 @@ void members(State& s, V&& v) {
   v("strain_rate", s.strain_rate);
   v("cohesive", s.cohesive);
   v("element_on_side", s.element_on_side);
+  v("damage", s.damage);
   v("contact", s.contact);
   v("fluid", s.fluid);
   v("dissipation", s.dissipation);

@@ -87,6 +87,42 @@ struct CohesiveElements {
   Index count() const { return static_cast<Index>(edge.size()); }
 };
 
+/// A triangle with a smeared crack in it. Strains are over its element length; index 0 is across the
+/// crack (opening), 1 along it (slip).
+struct DamagedTriangle {
+  Index triangle = -1;
+  Vec2 normal;                       ///< of the crack, unit, in the frame that turns with the triangle
+  double length = 0.0;               ///< over which the crack is smeared: area over length of crack [m]
+  std::array<double, 2> strength{};  ///< at which it softens [Pa]
+  std::array<double, 2> history{};   ///< largest opening, slip, over G/strength [-]
+  double slip_strain = 0.0;          ///< slip of what is broken of it [-]
+  Sym2 offset;                       ///< strain that a closed, failed triangle bears nothing at [-]
+  std::uint8_t open = 1;             ///< 1: its faces are apart
+  std::uint8_t failed = 0;           ///< 1: bears no tension any more
+  double damage = 0.0;               ///< the larger of both directions', 0 to 1 [-]
+  double opening = 0.0;              ///< w_n times length [m]
+  double slip = 0.0;                 ///< w_s times length [m]
+  double opening_strain = 0.0;       ///< across, the elastic part included, of the last evaluation [-]
+  double friction = 0.0;             ///< on what is broken, of the last evaluation [Pa]
+  Sym2 stress;                       ///< in that frame [Pa]
+  double stored = 0.0;               ///< recoverable energy, from the in-situ state [J/m]
+  double fracture_energy = 0.0;      ///< dissipated by breaking [J/m]
+  double sliding_work = 0.0;         ///< part of it done in shear [J/m]
+  double dropped = 0.0;              ///< part of it that failed at once [J/m]
+  double friction_energy = 0.0;      ///< dissipated by friction [J/m]
+  double yield_time = 0.0;           ///< of initiation [s]
+  double kinetic_at_yield = 0.0;     ///< of its corners [J/m]
+  double kinetic_rise = 0.0;         ///< largest rise above kinetic_at_yield until it fails [J/m]
+  Index cavity = -1;                 ///< whose fluid is in it; -1: dry
+  std::array<Vec2, 3> force;         ///< on its corners, of the last evaluation [N/m]
+};
+
+struct DamageState {
+  std::vector<DamagedTriangle> triangles;  ///< in order of initiation
+  std::vector<Index> of_triangle;          ///< into triangles; -1: intact. Empty where nothing is damaged
+  Index lowered = 0;                       ///< triangles above the size limit, whose strength was lowered
+};
+
 /// A connected volume of fluid.
 struct Cavity {
   double mass = 0.0;      ///< per metre of thickness [kg/m]
@@ -159,6 +195,7 @@ struct State {
   CohesiveElements cohesive;
   std::vector<Index>
       element_on_side;  ///< per corner 3 t + i: 2 x element + (1 on face b) on side i; -1: none
+  DamageState damage;
   ContactState contact;
   FluidState fluid;
   Dissipation dissipation;

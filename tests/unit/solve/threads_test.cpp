@@ -11,15 +11,24 @@
 namespace crackle {
 namespace {
 
-State run(bool on_demand, int threads) {
+enum class Breaking { all_edges, on_demand, damage };
+
+State run(Breaking breaking, int threads) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
   Scene scene =
       granite::scene(granite::make({.segments = 40, .width = 2.0, .fine_radius = 0.1, .size_coarse = 0.15}));
   scene.stress = granite::anisotropic;
   scene.damping.ratio = 0.1;
-  scene.law = find_law("evans_marathe");
-  scene.insertion.on_demand = on_demand;
+  if (breaking == Breaking::damage) {
+    DamageMaterial m{3e6, 24e6, 0.7, 0.7, 5.0, 80.0};
+    m.apply(DamagePreset::recommended);
+    scene.damage.law = find_softening("linear");
+    scene.damage.materials = {m};
+  } else {
+    scene.law = find_law("evans_marathe");
+    scene.insertion.on_demand = breaking == Breaking::on_demand;
+  }
   scene.cohesive = granite::cohesive();
   scene.contact = {250e9, 30e9, scene.cohesive.tan_residual};
   scene.fluid = CompressibleFluid{1.45e9, 1000.0, 0.0};
@@ -45,13 +54,15 @@ std::string difference(State& a, State& b) {
   return {};
 }
 
-class Threads : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(OnDemand, Threads, testing::Bool());
+class Threads : public testing::TestWithParam<Breaking> {};
+INSTANTIATE_TEST_SUITE_P(OnDemand, Threads,
+                         testing::Values(Breaking::all_edges, Breaking::on_demand, Breaking::damage));
 
 TEST_P(Threads, SameBitsForAnyNumber) {
   State one = run(GetParam(), 1);
   std::size_t broken = 0;
   for (const CohesiveStatus s : one.cohesive.status) broken += s >= CohesiveStatus::broken;
+  for (const DamagedTriangle& d : one.damage.triangles) broken += d.failed;
   EXPECT_GT(one.mesh->triangle_count(), 4 * 256) << "several blocks";
   EXPECT_GT(broken, 10u);
   for (const int threads : {2, 3, 8}) {

@@ -21,8 +21,8 @@ template <class T>
 class Members : public testing::Test {};
 using Saved = testing::Types<Edge, Mesh, CohesivePoint, CohesiveHistory, EndForces, CohesiveElements, Cavity,
                              FluidState, Dissipation, ContactPoint, ContactState, State, Energies, StableStep,
-                             BoundaryNode, SimulationMemory, quasi_static::State, quasi_static::Cell,
-                             quasi_static::Energies>;
+                             DamagedTriangle, DamageState, BoundaryNode, SimulationMemory,
+                             quasi_static::State, quasi_static::Cell, quasi_static::Energies>;
 TYPED_TEST_SUITE(Members, Saved);
 
 TYPED_TEST(Members, AllAreNamed) {
