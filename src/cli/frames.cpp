@@ -61,8 +61,9 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     frame.cell_fields.push_back(std::move(region));
   }
   if (wanted("damage") && !state.damage.of_triangle.empty()) {
-    Field damage{"damage", 1, std::vector<double>(at(triangles))};
-    for (const DamagedTriangle& d : state.damage.triangles) damage.values[at(d.triangle)] = d.damage;
+    Field damage{"damage", 1, std::vector<float>(at(triangles))};
+    for (const DamagedTriangle& d : state.damage.triangles)
+      damage.values[at(d.triangle)] = static_cast<float>(d.damage);
     frame.cell_fields.push_back(std::move(damage));
   }
   return frame;
@@ -111,13 +112,13 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     frame.points.push_back(centre + -half * along);
     frame.points.push_back(centre + half * along);
     frame.lines.push_back({p, p + 1});
-    opening.values.push_back(d.opening);
-    slip.values.push_back(d.slip);
-    damage.values.push_back(d.damage);
+    opening.add(d.opening);
+    slip.add(d.slip);
+    damage.add(d.damage);
     const double share = d.fracture_energy > 0.0 ? d.sliding_work / d.fracture_energy : 0.0;
-    mode.values.push_back(d.failed ? static_cast<double>(failure_mode(share)) : 0.0);
-    pressure.values.push_back(d.cavity >= 0 ? state.fluid.cavities[at(d.cavity)].pressure : 0.0);
-    broken.values.push_back(d.failed);
+    mode.add(d.failed ? static_cast<double>(failure_mode(share)) : 0.0);
+    pressure.add(d.cavity >= 0 ? state.fluid.cavities[at(d.cavity)].pressure : 0.0);
+    broken.add(d.failed);
   }
   frame.cell_fields = {std::move(opening), std::move(slip),     std::move(damage),
                        std::move(mode),    std::move(pressure), std::move(broken)};

@@ -174,7 +174,7 @@ DamagedTriangle Damage::make(const State& state, const Bulk& bulk, Index triangl
   d.normal = normal;
   const Index corner = 3 * triangle;
   d.length =
-      m.element_length == ElementLength::oliver
+      material(triangle).element_length == ElementLength::oliver
           ? oliver_length(bulk.shape_gradients(triangle), normal)
           : chord_length({state.reference(corner), state.reference(corner + 1), state.reference(corner + 2)},
                          normal);
@@ -301,22 +301,20 @@ Damage::Spent Damage::evaluate(const State& state, const Bulk& bulk, DamagedTria
   std::array<bool, 2> driven{};
   for (int turn = 0; !d.failed && turn < (a.ns == 0.0 ? 1 : 20); ++turn) {
     const std::array<double, 2> load{std::max(k.e_n, 0.0), std::abs(k.slip)};
+    bool any = false;
     for (std::size_t i = 0; i < 2; ++i) {
-      const double now = law_->loaded(r[i], load[i] / unit[i]);
-      driven[i] = driven[i] || now > x[i];
-      x[i] = std::max(x[i], now);
+      if (load[i] <= unit[i] * (x[i] + r[i] * law_->traction(x[i]))) continue;
+      x[i] = std::max(x[i], law_->loaded(r[i], load[i] / unit[i]));
+      any = driven[i] = true;
     }
+    if (!any) break;
     k.d_n = law_->damage(r[0], x[0]);
     k.d_s = law_->damage(r[1], x[1]);
     if (m.coupled) {
-      const double most = std::max(k.d_n, k.d_s);
-      for (std::size_t i = 0; i < 2; ++i) {
-        if ((i == 0 ? k.d_n : k.d_s) < most) {
-          x[i] = law_->at_damage(r[i], most);
-          driven[i] = false;
-        }
-      }
-      k.d_n = k.d_s = most;
+      const std::size_t lower = k.d_n < k.d_s ? 0 : 1;
+      k.d_n = k.d_s = std::max(k.d_n, k.d_s);
+      x[lower] = std::max(x[lower], law_->at_damage(r[lower], k.d_n));
+      driven[lower] = false;
     }
     k.settle(a, t_n, t_s, m.tan_residual, slip_before);
   }

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "../../result.hpp"
+#include "crackle/mesh/grid.hpp"
 #include "crackle/solve/estimates.hpp"
 #include "scenes.hpp"
 

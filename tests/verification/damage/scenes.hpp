@@ -4,9 +4,10 @@
 // MPa, c = 36 MPa, G_I = 5, G_II = 80 J/m2, linear softening.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 
-#include "../granite.hpp"
+#include "../../granite.hpp"
 
 namespace crackle::smeared {
 
