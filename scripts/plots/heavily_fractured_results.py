@@ -161,8 +161,8 @@ def draw_thresholds(rows, path):
 
 
 def draw_fractures(runs, path, after=0.16e-3):
-    """Seed 1 with joints and healed, at the paper's 1.36 ms from its onset at 1.2 ms: Figure 8."""
-    names = [f"{stress}-1{more}" for stress in STRESSES for more in ("", "-healed")]
+    """Seed 2 with joints and healed, at the paper's 1.36 ms from its onset at 1.2 ms: Figure 8."""
+    names = [f"{stress}-2{more}" for stress in STRESSES for more in ("", "-healed")]
     figure, grid = plt.subplots(2, 2, figsize=(10.2, 9.6), sharex=True, sharey=True, layout="constrained")
     window = (-0.42, 0.42, -0.42, 0.42)
     panels = []
@@ -232,7 +232,7 @@ def main():
         results_page.put_between(folder / "README.md", "results", table(rows))
         draw_thresholds(rows, folder / "summary.png")
         draw_fractures(runs, folder / "fractures.png")
-        draw_events(runs["isotropic-1"], folder / "events.png")
+        draw_events(runs["isotropic-2"], folder / "events.png")
         for name in ("summary", "fractures", "events"):
             look.shrink(folder / f"{name}.png")
     except (RunError, OSError) as error:
