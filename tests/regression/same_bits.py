@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs small scenes that break, again, with several numbers of threads and with other builds, and compares every byte.
+
+Compared are history.csv, events.csv, events.xml, fields, fractures, resolved.toml, and summary.json but for its wall
+times; run.log and status.json say when and how fast and are left out.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SMALL = ["mesh.size_fine=15 mm", "mesh.size_coarse=0.5 m", "run.end_time=110 us", "fluid.pump.0.rate=3 m2/s"]
+SCENES = {
+    "elements on all edges": ("granite_wellbore/smoke_anisotropic.toml", []),
+    "on demand": ("granite_wellbore/smoke_on_demand.toml", ["run.fast_forward=false"]),
+    "joints": ("heavily_fractured/smoke_anisotropic.toml", ["mesh.fine_radius=0.1 m"]),
+}
+
+
+def results(folder):
+    """Bytes of what a run left, by the file's name."""
+    files = {}
+    for path in sorted(folder.rglob("*")):
+        name = str(path.relative_to(folder))
+        if path.is_file() and name not in ("run.log", "status.json"):
+            files[name] = path.read_bytes()
+    files["summary.json"] = re.sub(rb'"(wall_s|core_ns_per_triangle_step)": [^,]*', b"", files["summary.json"])
+    return files
+
+
+def run(crackle, scene, threads, out):
+    case, settings = SCENES[scene]
+    command = [crackle, "run", ROOT / "cases" / case, "-o", out, "-q", "-j", str(threads)]
+    for setting in SMALL + settings:
+        command += ["--set", setting]
+    code = subprocess.run(command, check=False).returncode
+    if code != 0:
+        sys.exit(f"same_bits: {scene}, {threads} threads: {crackle} ends with code {code}")
+    return results(out)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="same_bits.py", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--crackle", default=ROOT / "build/src/cli/crackle", help="the program (that in build/)")
+    parser.add_argument("--threads", nargs="*", type=int, default=[], help="numbers of threads to run it with too")
+    parser.add_argument("--other", nargs="*", default=[], help="programs of other builds to compare with")
+    options = parser.parse_args()
+    failed = False
+    for scene in SCENES:
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            first = run(options.crackle, scene, 1, folder / "first")
+            events = first["events.csv"].count(b"\n") - 1
+            others = {"again": (options.crackle, 1)}
+            others.update({f"{n} threads": (options.crackle, n) for n in options.threads})
+            others.update({other: (other, 2) for other in options.other})
+            print(f"{scene}: {len(first)} files, {events} events; the same bytes:", end="", flush=True)
+            for name, (crackle, threads) in others.items():
+                files = run(crackle, scene, threads, folder / name.replace("/", "_"))
+                differ = [f for f in sorted(first.keys() | files.keys()) if first.get(f) != files.get(f)]
+                print(f" {name}{' NOT: ' + ', '.join(differ) if differ else ''};", end="", flush=True)
+                failed = failed or bool(differ)
+            print()
+            if events < 10:
+                sys.exit(f"same_bits: {scene}: {events} events are too few to say anything")
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
