@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <ctime>
+#include <fstream>
 #include <regex>
 
 namespace crackle_test {
@@ -52,6 +53,13 @@ double Process::processor_time() const {
   timespec time{};
   if (clock_getcpuclockid(child_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 1e9;
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double Process::resident_bytes() const {
+  std::ifstream file("/proc/" + std::to_string(child_) + "/statm");
+  double size = 0.0, resident = 0.0;
+  file >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 Outcome Process::wait() {

@@ -26,6 +26,8 @@ class Process {
   bool has_ended();
   /// Processor time it has taken [s].
   double processor_time() const;
+  /// Memory that it holds [bytes].
+  double resident_bytes() const;
   /// Waits for its end; code -1 if a signal ended it.
   Outcome wait();
 
