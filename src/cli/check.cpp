@@ -61,10 +61,8 @@ void print_onset(const Scene& scene, double end_time) {
 void print_cost(const Case& scene, const Mesh& mesh, const Steps& steps, const WallTime& time, double meshing,
                 int threads) {
   fmt::print("\nCost\n");
-  fmt::print("  memory {} of {} available\n", bytes_text(memory_of_run(mesh.triangle_count())),
+  fmt::print("  {}; {} of memory are available\n", needs_text(scene, mesh.triangle_count(), steps),
              bytes_text(available_memory()));
-  fmt::print("  output {} in {} frames\n", bytes_text(output_of_run(scene, mesh.triangle_count(), steps)),
-             frames_of_run(scene, steps));
   fmt::print("  wall time about {} on {} thread{}: mesh {}, geostatic stage {}, steps {}, output {}\n",
              duration_text(meshing + time.total()), threads, threads == 1 ? "" : "s", duration_text(meshing),
              duration_text(time.start), duration_text(time.steps), duration_text(time.output));

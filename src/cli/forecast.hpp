@@ -12,8 +12,25 @@
 
 namespace crackle {
 
+/// Steps that a run takes and their length. @throws CaseError when run.time_step is not stable, or when
+/// they are more than anybody can wait for
+struct Steps {
+  std::int64_t count = 0;
+  double length = 0.0;  ///< [s]
+};
+/// @param allow_unstable any run.time_step
+Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh,
+                   bool allow_unstable = false);
+
 /// Largest memory of a run on a mesh of that many triangles [bytes].
-double memory_of_run(double triangles);
+struct RunMemoryUse {
+  double run = 0.0;
+  double checkpoint = 0.0;  ///< with checkpoints
+};
+RunMemoryUse memory_of_run(const Case& scene, double triangles);
+
+/// "24 MB of memory, 46 MB while a checkpoint is written; 19 MB of output in 21 frames"
+std::string needs_text(const Case& scene, double triangles, const Steps& steps);
 
 /// Memory that this process may still take [bytes], by /proc/meminfo, control group and ulimit;
 /// infinity where none of them says.
@@ -25,20 +42,11 @@ void require_memory(const Case& scene);
 /// The same once the number of triangles is known.
 void require_memory(const Case& scene, Index triangles);
 
-/// Steps that a run takes and their length. @throws CaseError when run.time_step is not stable, or when
-/// they are more than anybody can wait for
-struct Steps {
-  std::int64_t count = 0;
-  double length = 0.0;  ///< [s]
-};
-/// @param allow_unstable any run.time_step
-Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh,
-                   bool allow_unstable = false);
-
 /// Size of all frames of a run and its other files [bytes].
 double output_of_run(const Case& scene, double triangles, const Steps& steps);
 
-/// @throws CaseError when that and its checkpoints would not fit on the disk that a folder is on
+/// @throws CaseError when that is more than output.max_bytes, or with its checkpoints would not fit on the
+/// disk that a folder is on
 void require_disk(const Case& scene, double triangles, const Steps& steps, const std::string& folder);
 
 /// Number of field frames a run writes, not more than one a step.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Memory of a run, counted from the arrays it holds at its largest: rock, cohesive elements and the
-// factor of the geostatic stage. Within 20 % of the measured peak from 4e3 to 3.4e5 triangles.
+// Memory of a run at its largest, counted from the arrays it holds then; what the static solve takes
+// is fitted to measured peaks. tests/restart/resources_test.cpp holds it to 20 %.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -18,32 +18,37 @@
 namespace crackle {
 namespace {
 
-// The program and its libraries before any mesh (measured).
-constexpr double program = 24e6;
+// The program and its libraries before any mesh; HDF5 and its buffers (measured).
+constexpr double program = 26e6, checkpoint_library = 14e6;
 
-// A triangulation has half a vertex and 1.5 edges a triangle; the split state has three nodes a
-// triangle and a cohesive element on every edge.
-constexpr double vertices = 0.5, edges = 1.5, nodes = 3.0, corners = 3.0;
+// A triangulation has half a vertex and 1.5 edges a triangle. A tied state has a node a vertex; the split one
+// three a triangle, and a cohesive element on every edge.
+constexpr double vertices = 0.5, edges = 1.5, split_nodes = 3.0, corners = 3.0;
 
 constexpr double mesh_bytes =
     vertices * sizeof(Vec2) + 2 * sizeof(std::array<Index, 3>) + sizeof(Region) + edges * sizeof(Edge);
+constexpr double node_bytes = 2 * sizeof(Index) + 2 * sizeof(Vec2) + sizeof(double);
 constexpr double element_bytes = sizeof(Index) + sizeof(std::array<Index, 4>) + sizeof(Vec2) +
-                                 sizeof(std::array<double, 4>) + sizeof(EndForces) + sizeof(CohesiveStatus) +
-                                 sizeof(Index);
-constexpr double state_bytes = corners * 3 * sizeof(Index) +  // corners and their elements
-                               nodes * (2 * sizeof(Index) + 2 * sizeof(Vec2) + sizeof(double)) +
-                               sizeof(Sym2) + edges * (element_bytes + sizeof(Index)) +
-                               vertices * sizeof(Index);
+                                 sizeof(double) + sizeof(std::array<double, 4>) + sizeof(std::uint16_t) +
+                                 sizeof(EndForces) + sizeof(CohesiveStatus) + sizeof(Index);
 constexpr double bulk_bytes = sizeof(std::array<double, 4>) + 2 * sizeof(double) + sizeof(Sym2);
-constexpr double loop_bytes = (corners + nodes) * sizeof(Vec2);  // corner forces, velocities of the ledger
-constexpr double held_bytes = mesh_bytes + state_bytes + bulk_bytes + loop_bytes;
 
-// Geostatic stage: loads and forces per corner, a tied state, and the factor of the stiffness
-// matrix, whose fill grows with the logarithm of the mesh (fitted to peaks at 1e5 and 3.4e5).
-double solve_bytes(double triangles) {
-  constexpr double entry = sizeof(double) + sizeof(Index);
-  const double fill = entry * std::max(20.0, 9.0 * std::log2(std::max(2.0, triangles)) - 46.0);
-  return 2.0 * corners * sizeof(Vec2) + fill;
+// A triangle's share of the state, which a checkpoint holds too.
+double state_bytes(bool split) {
+  return corners * 3 * sizeof(Index) + (split ? split_nodes : vertices) * node_bytes + sizeof(Sym2) +
+         (split ? edges * element_bytes : 0.0) + edges * 2 * sizeof(Index) + vertices * sizeof(Index);
+}
+
+// Corner forces, velocities of the ledger, and a frame with the copy that VTK compresses.
+double loop_bytes(bool split) {
+  constexpr double frame = corners * 2 * sizeof(Vec2) + 2 * (corners * 4 + 3) * sizeof(float);
+  return (corners + (split ? split_nodes : vertices)) * sizeof(Vec2) + frame;
+}
+
+// The geostatic stage of a tied state with all that it holds, for the most part the factor of the stiffness
+// matrix, whose fill grows with the logarithm of the mesh.
+double static_stage_bytes(double triangles) {
+  return std::max(950.0, 1000.0 + 30.0 * std::log2(1e-5 * triangles));
 }
 
 /// Kilobytes behind a name in /proc/meminfo, as bytes; infinity without it.
@@ -65,7 +70,9 @@ double number_in(const char* path) {
 }
 
 void refuse_if_too_large(const Case& scene, double triangles, const char* about) {
-  const double needed = memory_of_run(triangles), available = available_memory();
+  const RunMemoryUse use = memory_of_run(scene, triangles);
+  const double needed = scene.output.checkpoint_every > 0.0 ? use.checkpoint : use.run,
+               available = available_memory();
   if (needed <= available) return;
   const std::string count = triangles < 1e6 ? fmt::format("{:.0f} thousand", 1e-3 * triangles)
                                             : fmt::format("{:.0f} million", 1e-6 * triangles);
@@ -77,7 +84,16 @@ void refuse_if_too_large(const Case& scene, double triangles, const char* about)
 
 }  // namespace
 
-double memory_of_run(double triangles) { return program + triangles * (held_bytes + solve_bytes(triangles)); }
+RunMemoryUse memory_of_run(const Case& scene, double triangles) {
+  const bool split = scene.cohesive.insertion == "all";
+  const double saved = mesh_bytes + state_bytes(split);
+  const double loop = saved + bulk_bytes + loop_bytes(split);
+  RunMemoryUse use;
+  use.run = program + triangles * std::max(static_stage_bytes(triangles), loop);
+  // The file as HDF5 has it in memory, and what goes to the disk.
+  use.checkpoint = std::max(use.run, program + checkpoint_library + triangles * (loop + 2.0 * saved));
+  return use;
+}
 
 double available_memory() {
   double available = meminfo("MemAvailable");

@@ -167,7 +167,8 @@ class Run {
     const Steps steps = steps_of_run(scene_, simulation_->stable(), *mesh, options_.allow_unstable);
     require_disk(scene_, mesh->triangle_count(), steps, folder_.path());
     memory_.step_length = steps.length;
-    say(fmt::format("{} steps of {:.3g} s on {} threads", steps.count, steps.length, threads_));
+    say(fmt::format("{} steps of {:.3g} s on {} threads; {}", steps.count, steps.length, threads_,
+                    needs_text(scene_, mesh->triangle_count(), steps)));
     folder_.write_resolved(scene_);
   }
 

@@ -283,6 +283,7 @@ std::vector<TableSpec> make_tables() {
       text("fields", slot<&C::output, &C::Output::fields>(), "names of the fields to write; none: the default set", "none"),
       number("history_every", slot<&C::output, &C::Output::history_every>(), duration, not_negative, Need::never, "simulated time between rows of history.csv", "run.end_time / 1000"),
       number("checkpoint_every", slot<&C::output, &C::Output::checkpoint_every>(), duration, not_negative, Need::never, "wall-clock time between checkpoints; 0: only on a signal"),
+      number("max_bytes", slot<&C::output, &C::Output::max_bytes>(), plain, not_negative, Need::never, "a run that would write more is refused; 0: no limit"),
     }},
   };
   // clang-format on

@@ -44,7 +44,7 @@ void Process::signal(int number) const {
 }
 
 bool Process::has_ended() {
-  if (!ended_) ended_ = waitpid(child_, &status_, WNOHANG) == child_;
+  if (!ended_) ended_ = wait4(child_, &status_, WNOHANG, &usage_) == child_;
   return ended_;
 }
 
@@ -62,8 +62,10 @@ double Process::resident_bytes() const {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+double Process::peak_memory() const { return 1024.0 * static_cast<double>(usage_.ru_maxrss); }
+
 Outcome Process::wait() {
-  if (!ended_) waitpid(child_, &status_, 0);
+  if (!ended_) wait4(child_, &status_, 0, &usage_);
   ended_ = true;
   const Outcome outcome{WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, read_text(out_), read_text(err_)};
   fs::remove(out_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 #include <functional>
@@ -28,6 +29,8 @@ class Process {
   double processor_time() const;
   /// Memory that it holds [bytes].
   double resident_bytes() const;
+  /// The most memory it has held, once it has ended [bytes].
+  double peak_memory() const;
   /// Waits for its end; code -1 if a signal ended it.
   Outcome wait();
 
@@ -35,6 +38,7 @@ class Process {
   pid_t child_;
   std::string out_, err_;
   int status_ = 0;
+  rusage usage_{};
   bool ended_ = false;
 };
 

@@ -196,6 +196,7 @@ struct Case {
     std::vector<std::string> fields;  ///< names of fields written; empty: the default set
     double history_every = 0.0;       ///< [s]; 0: end_time / 1000
     double checkpoint_every = 600.0;  ///< wall-clock time between checkpoints [s]; 0: only on a signal
+    double max_bytes = 0.0;           ///< a run that would write more is refused [bytes]; 0: no limit
   } output;
 };
 
