@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
+#include "../fault.hpp"
 #include "process.hpp"
 
 namespace crackle_test {
@@ -68,9 +69,15 @@ TEST_P(AbsurdScene, EndsInBoundedTimeAndMemory) {
     setrlimit(RLIMIT_AS, &bytes);
   });
   const Outcome outcome = process.wait();
-  if (GetParam().code != 0) return expect_refusal(outcome, GetParam().code, GetParam().reason);
+  const char* fault =
+      "absurd but valid scene, in 2 GB and 20 s of processor time: done, or stopped with the reason";
+  if (GetParam().code != 0) {
+    expect_refusal(outcome, GetParam().code, GetParam().reason);
+    return report_faults(fault, 1, Left::refused);
+  }
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
+  report_faults(fault, 1, Left::survived);
 }
 
 }  // namespace

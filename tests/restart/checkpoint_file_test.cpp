@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "../fault.hpp"
 #include "../granite.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/io/checkpoint.hpp"
@@ -151,6 +152,8 @@ class DamagedCheckpoint : public testing::Test {
                 ThrowsMessage<CaseError>(testing::AllOf(testing::StartsWith("file.h5: "), HasSubstr(why))));
     EXPECT_EQ(untouched.state.step, 0);
     EXPECT_TRUE(untouched.mesh.vertices.empty());
+    crackle_test::report_faults("checkpoint cut short, foreign, of another format, with other columns", 1,
+                                crackle_test::Left::refused);
   }
   Kept kept_;
   std::string bytes_;
@@ -187,7 +190,8 @@ TEST_F(DamagedCheckpoint, AnyBitFlipped) {
       ++refused;
     }
   }
-  std::printf("%d flipped bits, all refused\n", refused);
+  crackle_test::report_faults("bit flipped in a checkpoint, head or data", refused,
+                              crackle_test::Left::refused);
 }
 
 TEST_F(DamagedCheckpoint, OfAnotherFormat) {

@@ -9,6 +9,7 @@
 
 #include <csignal>
 
+#include "../fault.hpp"
 #include "process.hpp"
 
 namespace crackle_test {
@@ -80,11 +81,13 @@ TEST_F(FullDisk, StopsTheRunWhichGoesOnWhenThereIsRoom) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(read_text(folder + "/run.log"), HasSubstr("resumed from checkpoint"));
   expect_same_results(folder, path("whole"));
+  report_faults("disk full (a tmpfs that another file fills); resumed", 1, Left::survived);
 }
 
 TEST_F(FullDisk, IsSeenBeforeTheRunStarts) {
   if (!mount_disk("size=3m")) GTEST_SKIP() << "no right to mount";
   expect_refusal(run(disk() + "/run"), 2, "the run would write");
+  report_faults("disk too small for the run", 1, Left::refused);
 }
 
 TEST_F(FullDisk, ReadOnlyFolder) {
@@ -93,6 +96,7 @@ TEST_F(FullDisk, ReadOnlyFolder) {
   ASSERT_TRUE(remount(MS_RDONLY, "size=10m"));
   expect_refusal(run(disk() + "/run"), 2, "run.log: cannot create: Read-only file system");
   expect_refusal(run(disk() + "/new"), 2, "cannot create the output folder: Read-only file system");
+  report_faults("read-only disk", 2, Left::refused);
 }
 
 // As with a quota: a checkpoint is larger than any file may be, everything else is not.
@@ -108,6 +112,7 @@ TEST_F(FullDisk, LimitOfFileSize) {
   expect_readable_frames(path("limited"));
   EXPECT_EQ(resume(path("limited")).code, 0);
   expect_same_results(path("limited"), path("whole"));
+  report_faults("limit of file size, as a quota; resumed", 1, Left::survived);
 }
 
 TEST_F(FullDisk, FolderThatVanishesAndComesBack) {
@@ -130,6 +135,7 @@ TEST_F(FullDisk, FolderThatVanishesAndComesBack) {
   expect_readable_frames(path("away"));
   EXPECT_EQ(resume(path("away")).code, 0);
   expect_same_results(path("away"), path("whole"));
+  report_faults("folder moved away while it runs; resumed", 1, Left::survived);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <random>
 
+#include "../fault.hpp"
 #include "process.hpp"
 
 namespace crackle_test {
@@ -77,6 +78,7 @@ TEST_F(Kill, ThirtyTimes) {
       "%d kills in %d runs, %d before the first checkpoint, %d with a file half written; lost: nothing\n",
       kills, runs, before_first_checkpoint, while_writing);
   EXPECT_GT(while_writing, 0);
+  report_faults("SIGKILL at random instants, also while a file is written; resumed", kills, Left::survived);
 }
 
 }  // namespace

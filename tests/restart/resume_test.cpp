@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "../fault.hpp"
 #include "crackle/io/checkpoint.hpp"
 #include "crackle/state/members.hpp"
 #include "process.hpp"
@@ -78,6 +79,7 @@ TEST_F(Resume, LeavesTheSameBytes) {
   EXPECT_EQ(interrupted_resume("parts", 17, "1").code, 75);
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
+  report_faults("SIGTERM while it breaks or grows; resumed", 3, Left::survived);
 }
 
 TEST_F(Resume, LeavesTheSameBytesWithSmearedDamage) {
@@ -96,6 +98,7 @@ TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
   EXPECT_EQ(interrupted_run("parts", 15, on_demand).code, 75);
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
+  report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
 }
 
 TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
@@ -104,6 +107,7 @@ TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
   EXPECT_EQ(interrupted_run("parts", 15, absorbing).code, 75);
   EXPECT_EQ(resume("parts").code, 0);
   expect_same_results(path("parts"), path("whole"));
+  report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
 }
 
 // In field time, while it grows and leaks by diffusion; any number of threads.
@@ -143,6 +147,7 @@ TEST_F(Resume, LeavesTheSameBytesInFieldTime) {
   EXPECT_EQ(interrupted_resume("parts", 6, "2").code, 75);
   EXPECT_EQ(resume("parts").code, 0);
   expect_same_results(path("parts"), path("whole"));
+  report_faults("SIGTERM while it breaks or grows; resumed", 2, Left::survived);
 }
 
 // Joints that slide and break while the run is interrupted, three times, with the fluid in some of them.
@@ -185,6 +190,7 @@ residual_friction_angle = "10 deg"
   expect_slips_under_way("checkpoint_a.h5");
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
+  report_faults("SIGTERM while it breaks or grows; resumed", 3, Left::survived);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ResumeWithJoints,
@@ -211,6 +217,7 @@ TEST_F(Resume, OfARunWithoutCheckpointBeginsAnew) {
   EXPECT_EQ(process.wait().code, -1);
   EXPECT_EQ(resume("killed").code, 0);
   expect_same_results(path("killed"), path("whole"));
+  report_faults("SIGKILL before the first checkpoint", 1, Left::survived);
 }
 
 // Whole files, but for the older checkpoint.
@@ -224,6 +231,7 @@ TEST_F(Resume, TakesTheOlderCheckpointWhereTheNewerIsDamaged) {
   EXPECT_THAT(read_text(path("parts/run.log")),
               testing::AllOf(HasSubstr("checkpoint_b.h5: it is damaged"), HasSubstr("from checkpoint_a.h5")));
   expect_same_results(path("parts"), path("whole"));
+  report_faults("newer checkpoint damaged: the older is taken", 1, Left::survived);
 }
 
 TEST_F(Resume, RefusesWhereNoCheckpointCanBeUsed) {
@@ -237,6 +245,7 @@ TEST_F(Resume, RefusesWhereNoCheckpointCanBeUsed) {
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("checkpoint_a.h5: it is damaged"),
                                           HasSubstr("checkpoint_b.h5: it is 1000 bytes long instead of")));
   EXPECT_EQ(results(path("out")), before);
+  report_faults("both checkpoints damaged", 1, Left::refused);
 }
 
 TEST_F(Resume, RefusesACheckpointOfAnotherCase) {
@@ -246,6 +255,7 @@ TEST_F(Resume, RefusesACheckpointOfAnotherCase) {
   ASSERT_NE(at, std::string::npos);
   write("out/resolved.toml", resolved.replace(at, 14, "density = 2600"));
   expect_refusal(resume("out"), 2, "it is of another case than resolved.toml");
+  report_faults("checkpoint of another case", 1, Left::refused);
 }
 
 TEST_F(Resume, RefusesWhereTheTablesWereCut) {
@@ -253,6 +263,7 @@ TEST_F(Resume, RefusesWhereTheTablesWereCut) {
   fs::resize_file(path("out/history.csv"), 100);
   expect_refusal(resume("out"), 2,
                  "history.csv or events.csv is shorter than when checkpoint_a.h5 was written");
+  report_faults("history.csv cut short before the checkpoint", 1, Left::refused);
 }
 
 TEST_F(Resume, RefusesWhatIsNoRun) {
@@ -262,6 +273,7 @@ TEST_F(Resume, RefusesWhatIsNoRun) {
   expect_refusal(resume("empty"), 2, "there is no run to resume");
   expect_refusal(crackle({"run", path("case.toml"), "--resume", path("empty")}), 2, "case excludes --resume");
   expect_refusal(crackle({"run"}), 2, "case is required");
+  report_faults("resumed what is no run", 4, Left::refused);
 }
 
 TEST_F(Resume, SecondProcessInOneFolderIsRefused) {
@@ -274,6 +286,7 @@ TEST_F(Resume, SecondProcessInOneFolderIsRefused) {
   expect_refusal(crackle({"run", "--resume", path("out")}), 2, "another crackle is running in this folder");
   first.signal(SIGINT);
   EXPECT_EQ(first.wait().code, 75) << "the first is not disturbed";
+  report_faults("second process in the folder of a run", 2, Left::refused);
 }
 
 }  // namespace
