@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// In place of src/mesh/gmsh/session.cpp: gmsh is initialised once and cleared between inputs, which is a hundred
-// times faster.
-#include "gmsh/session.hpp"
-
+// In place of src/mesh/gmsh/session.cpp: gmsh is initialised once and cleared between inputs, which is a
+// hundred times faster.
 #include <gmsh.h>
 
 #include "crackle/core/errors.hpp"
+#include "gmsh/session.hpp"
 
 namespace crackle::meshing::by_gmsh {
 
