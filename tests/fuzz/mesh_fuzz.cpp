@@ -11,7 +11,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const crackle::Mesh mesh = crackle::meshing::by_gmsh::read(crackle_fuzz::scratch_file(data, size, ".msh"));
+    const crackle::Mesh mesh =
+        crackle::meshing::by_gmsh::read(crackle_fuzz::scratch_file(data, size, ".msh"));
     if (mesh.triangle_edges.size() != mesh.triangles.size()) std::abort();
     for (const crackle::Edge& edge : mesh.edges) {
       if (edge.triangle[0] < 0 || edge.triangle[0] >= mesh.triangle_count()) std::abort();
