@@ -211,7 +211,9 @@ def draw_events(run, path):
         axes.set_xlim(-420, 420)
         axes.set_ylim(-420, 420)
         look.name_axes(axes, f"up to {after * 1e3:.3f} ms after breakdown (the paper's {name} ms)", "x [mm]", "y [mm]")
-        axes.legend(loc="upper left", fontsize=8, frameon=True, framealpha=0.9, edgecolor="none")
+        legend = axes.legend(loc="upper left", fontsize=8, frameon=True, framealpha=0.9, edgecolor="none")
+        for handle in legend.legendHandles:
+            handle.set_sizes([30.0])
         grid[1][column].axhspan(-5.0, -4.0, color=look.WATER, alpha=0.12, linewidth=0)
         look.name_axes(grid[1][column], "magnitudes; shaded: the paper's range", "time since breakdown [ms]", "magnitude")
     grid[1][0].sharex(grid[1][1])
