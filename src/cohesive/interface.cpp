@@ -4,8 +4,8 @@
 namespace crackle {
 
 InterfaceLaw::InterfaceLaw(std::shared_ptr<const CohesiveLaw> law, double strength, double fracture_energy,
-                           Closure closure)
-    : law_(std::move(law)), strength_(strength), closure_(closure) {
+                           Closure closure, ShearLaw shear)
+    : law_(std::move(law)), strength_(strength), closure_(closure), shear_(shear) {
   elastic_ = 0.002 * 2.0 * fracture_energy / strength_;
   softening_ = (fracture_energy - 0.5 * strength_ * elastic_) / (strength_ * law_->softening_integral());
 }
@@ -31,6 +31,60 @@ TractionSlope InterfaceLaw::traction(double opening, double max_opening, double 
     t.traction = strength_ * law_->softening(d);
     t.slope = strength_ * (law_->softening(high) - law_->softening(low)) / ((high - low) * softening_);
   }
+  return t;
+}
+
+MixedTraction InterfaceLaw::traction(double opening, double slip, double max_opening, double plastic_slip,
+                                     double in_situ, double in_situ_shear) const {
+  const double beta2 = shear_.ratio * shear_.ratio, wide = std::max(opening, 0.0);
+  const double largest = std::max(wide, max_opening);
+  const double in = opening > 0.0 ? 1.0 : 0.0;
+  MixedTraction t;
+  t.plastic_slip = plastic_slip;
+  if (largest <= elastic_) {
+    t.nn = (strength_ - in_situ) / elastic_;
+    t.normal = in_situ + t.nn * opening;
+    t.shear = in_situ_shear * (1.0 - wide / elastic_) + beta2 * strength_ / elastic_ * slip;
+    t.sn = -in * in_situ_shear / elastic_;
+    t.ss = beta2 * strength_ / elastic_;
+    return t;
+  }
+  if (const double d = damage(largest); d < 1.0) {
+    const double secant = strength_ * law_->softening(d) / largest;
+    double slope = 0.0;  // of the secant by the opening
+    if (wide >= max_opening) {
+      constexpr double step = 1e-5;
+      const double low = std::max(d - step, 0.0), high = std::min(d + step, 1.0);
+      slope = (strength_ * (law_->softening(high) - law_->softening(low)) / ((high - low) * softening_) -
+               secant) /
+              wide;
+    }
+    t.normal = secant * wide;
+    t.shear = secant * beta2 * slip;
+    t.nn = in * secant + wide * slope;
+    t.sn = beta2 * slip * slope;
+    t.ss = beta2 * secant;
+  }
+  // asperities; below a fiftieth of their height (a third, of fresh faces) the hyperbola goes on as its
+  // tangent
+  const double least =
+      largest < closure_.residual_aperture ? 0.3 * largest : 0.02 * closure_.residual_aperture;
+  TractionSlope pressed = closure_.traction(std::max(opening, least), largest);
+  if (opening < least) pressed.traction += pressed.slope * (opening - least);
+  t.normal += pressed.traction;
+  t.nn += pressed.slope;
+  const double stiffness = closure_.closure_stress / (9.0 * closure_.residual_aperture);
+  const double limit = -shear_.friction * pressed.traction;
+  t.friction = in_situ_shear + stiffness * (slip - plastic_slip);
+  if (std::abs(t.friction) <= limit) {
+    t.ss += stiffness;
+  } else {
+    const double sign = t.friction > 0.0 ? 1.0 : -1.0;
+    t.friction = sign * limit;
+    t.sn -= sign * shear_.friction * pressed.slope;
+    t.plastic_slip = slip - (t.friction - in_situ_shear) / stiffness;
+  }
+  t.shear += t.friction;
   return t;
 }
 

@@ -7,10 +7,16 @@
 //   unloading w < w_m     t = (w/w_m) f z(D_m) + closure of mated faces (closure.hpp)
 //   broken    D = 1       closure only
 // The intact bond carries the in-situ stress at w = 0, so nothing jumps when a point joins the path.
+// Where faces also slip (by s, on general paths), rock still fails by opening alone, and a bond that it holds
+// resists slip as it does opening, β² times stiffer:
+//   intact     τ = τ₀ (1 − w/w_e) + β² f/w_e s
+//   cohesion   τ = β² (t/w) s
+//   closed     τ = k_t (s − s_p), within Coulomb's μ times the traction of the asperities, k_t = σ_ref/(9 w₀)
 // w_e is 0.002 of 2G/f; w_s is chosen so that ½ f w_e + f w_s ∫z dD = G.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "crackle/cohesive/closure.hpp"
@@ -18,11 +24,26 @@
 
 namespace crackle {
 
+/// What slip needs beside: β and μ.
+struct ShearLaw {
+  double ratio = 2.0;     ///< root of the shear over the normal stiffness of bonds [-]
+  double friction = 0.6;  ///< of closed faces [-]
+};
+
+/// Tractions [Pa] of a point that opens and slips, their derivatives by opening and slip [Pa/m], and the
+/// slip that friction has not given back [m].
+struct MixedTraction {
+  double normal = 0.0, shear = 0.0;
+  double nn = 0.0, sn = 0.0, ss = 0.0;  ///< of normal by opening; of shear by opening, by slip
+  double friction = 0.0;                ///< part of the shear traction [Pa]
+  double plastic_slip = 0.0;
+};
+
 class InterfaceLaw {
  public:
   /// @param strength f [Pa], as resolved by the mesh @param fracture_energy G [J/m2]
   InterfaceLaw(std::shared_ptr<const CohesiveLaw> law, double strength, double fracture_energy,
-               Closure closure);
+               Closure closure, ShearLaw shear = {});
 
   double strength() const { return strength_; }
   double elastic_opening() const { return elastic_; }              ///< w_e [m]
@@ -36,6 +57,10 @@ class InterfaceLaw {
   /// Traction at an opening [m]. @param max_opening before this step [m] @param in_situ t₀ [Pa]
   TractionSlope traction(double opening, double max_opening, double in_situ) const;
 
+  /// The same where faces slip too. @param max_opening before this step [m]
+  /// @param in_situ_shear traction along the face before all [Pa]
+  MixedTraction traction(double opening, double slip, double max_opening, double plastic_slip, double in_situ,
+                         double in_situ_shear) const;
   /// Energy per area that an opening holds [J/m2]: d(stored + dissipated) = t dw, on any way.
   double stored(double opening, double max_opening, double in_situ) const;
   /// Energy dissipated per area by a point that has been open by `max_opening` [J/m2].
@@ -45,6 +70,7 @@ class InterfaceLaw {
   std::shared_ptr<const CohesiveLaw> law_;
   double strength_;
   Closure closure_;
+  ShearLaw shear_;
   double elastic_ = 0.0, softening_ = 0.0;
 };
 

@@ -35,11 +35,12 @@ struct JumpTerm {
 
 /// An edge of the path, directed from where the fluid comes from.
 struct PathEdge {
-  Index edge = -1;                            ///< of the mesh
-  Index parent = -1;                          ///< path edge it was reached from; -1: from the well
-  std::array<Index, 2> vertex{-1, -1};        ///< inner, outer
-  Vec2 normal;                                ///< from face a to face b
-  double length = 0.0;                        ///< [m]
+  Index edge = -1;                      ///< of the mesh
+  Index parent = -1;                    ///< path edge it was reached from; -1: from the well, -2: of a joint
+  std::array<Index, 2> vertex{-1, -1};  ///< inner, outer
+  Vec2 normal;                          ///< from face a to face b
+  double length = 0.0;                  ///< [m]
+  double aperture = 0.0;                ///< between mated faces at no jump [m]
   std::array<std::vector<JumpTerm>, 2> jump;  ///< at the inner and the outer vertex
 };
 
@@ -52,7 +53,7 @@ class FracturePath {
   FracturePath(std::shared_ptr<const Mesh> mesh, Held held, bool slip);
 
   /// Appends a mesh edge that leaves `inner`. @return its number on the path
-  Index add(Index edge, Index inner, Index parent);
+  Index add(Index edge, Index inner, Index parent, double aperture = 0.0);
   /// Takes back the last edges, so that `count` are left.
   void truncate(std::size_t count);
 

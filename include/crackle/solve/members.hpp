@@ -66,6 +66,8 @@ template <class V>
 void members(Point& p, V&& v) {
   v("max_opening", p.max_opening);
   v("in_situ", p.in_situ);
+  v("in_situ_shear", p.in_situ_shear);
+  v("plastic_slip", p.plastic_slip);
 }
 
 template <class V>
@@ -105,6 +107,7 @@ void members(Energies& e, V&& v) {
   v("confinement", e.confinement);
   v("faces", e.faces);
   v("fracture", e.fracture);
+  v("friction", e.friction);
   v("residual", e.residual);
 }
 

@@ -8,8 +8,9 @@
 // A cell is an edge of the path. The fracture grows by an edge where the opening at its tip passes the
 // elastic one; this is iterated within the step. Tension positive; volumes at reference density, per
 // metre of thickness.
-// Limits: faces open but do not slip (a straight path along a principal stress); elastic rock, no stress from
-// fluid that leaks off, no inertia.
+// Faces open, and on general paths slip. A tip chooses its next edge by the stress round it; joints take part
+// from the beginning, with friction, and take fluid where a fracture meets them. Limits: elastic rock, no
+// stress from fluid that leaks off, no inertia; joints do not grow at their ends.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "crackle/cohesive/closure.hpp"
+#include "crackle/cohesive/interface.hpp"
 #include "crackle/cohesive/law.hpp"
 #include "crackle/fluid/fracture_flow.hpp"
 #include "crackle/fluid/leak_off.hpp"
@@ -37,11 +38,14 @@ enum class Wetting : std::uint8_t {
   broken,        ///< only edges without any cohesion left hold fluid (Y-Geo)
 };
 
-/// A fracture that starts at the well and follows given edges.
+/// A fracture that starts at the well and follows given edges, as far as they go.
 struct Wing {
   Index start = -1;         ///< vertex at the well
   std::vector<Index> path;  ///< mesh edges in order
   std::size_t open = 1;     ///< how many of them are broken, and filled, from the beginning
+  /// Beyond its path it goes on along the edge whose direction is nearest to that across which the
+  /// mean stress round its tip pulls most.
+  bool free = false;
 };
 
 struct TimeControl {
@@ -69,6 +73,10 @@ struct QuasiStaticScene {
   Pump pump;
   Wetting wetting = Wetting::tip_pressure;
   std::vector<Wing> wings;
+  bool slip = false;            ///< faces may slip: for any path that is no straight line of symmetry
+  ShearLaw shear;               ///< of rock and its fractures
+  std::vector<Index> joints;    ///< mesh edges of joints: mated, full of fluid at pore pressure
+  double joint_friction = 0.6;  ///< [-]
   TimeControl control;
 };
 

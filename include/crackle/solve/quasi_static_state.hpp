@@ -15,15 +15,17 @@ namespace crackle::quasi_static {
 
 /// An end of a path edge.
 struct Point {
-  double max_opening = 0.0;  ///< [m]
-  double in_situ = 0.0;      ///< effective normal traction of the intact rock [Pa]
+  double max_opening = 0.0;    ///< [m]
+  double in_situ = 0.0;        ///< effective normal traction of the intact rock [Pa]
+  double in_situ_shear = 0.0;  ///< and along the edge [Pa]
+  double plastic_slip = 0.0;   ///< [m]
 };
 
 /// An edge of the path: two points, and a cell for fluid.
 struct Cell {
   Index edge = -1;    ///< of the mesh
   Index inner = -1;   ///< vertex that it was reached at
-  Index parent = -1;  ///< cell that it was reached from; -1: the well
+  Index parent = -1;  ///< cell that it was reached from; -1: the well, -2: of a joint
   std::array<Point, 2> points;
   std::uint8_t wet = 0;
   double pressure = 0.0;  ///< [Pa]
@@ -55,6 +57,7 @@ struct Energies {
   double confinement = 0.0;  ///< work against the in-situ stress
   double faces = 0.0;        ///< kept by bonds and asperities
   double fracture = 0.0;     ///< dissipated by fracture
+  double friction = 0.0;     ///< dissipated by friction of closed faces
   double residual = 0.0;     ///< what does not add up, over the work of the pump [-]
 };
 

@@ -112,11 +112,12 @@ void FracturePath::renew_jumps(Index vertex) {
   }
 }
 
-Index FracturePath::add(Index edge, Index inner, Index parent) {
+Index FracturePath::add(Index edge, Index inner, Index parent, double aperture) {
   const Edge& e = mesh_->edges[at(edge)];
   PathEdge path;
   path.edge = edge;
   path.parent = parent;
+  path.aperture = aperture;
   path.vertex = {inner, e.vertex[0] == inner ? e.vertex[1] : e.vertex[0]};
   const Vec2 n = right_normal(mesh_->vertices[at(e.vertex[1])] - mesh_->vertices[at(e.vertex[0])]);
   path.length = norm(n);

@@ -42,9 +42,10 @@ Energies kept(const Equations& e, const State& state) {
     for (std::size_t i = 0; i < 2; ++i) {
       const Point& point = cell.points[i];
       const double half = 0.5 * edge.length;
-      k.confinement -= half * point.in_situ * w[i];
+      k.confinement -= half * point.in_situ * (w[i] - edge.aperture);
       k.faces += half * e.laws[c].stored(w[i], point.max_opening, point.in_situ);
       k.fracture += half * e.laws[c].dissipated(std::max(point.max_opening, w[i]));
+      if (e.scene.slip) k.confinement -= half * point.in_situ_shear * slips(edge, state.jumps)[i];
     }
     if (!cell.wet) continue;
     const double p = cell.pressure;
@@ -74,6 +75,16 @@ void account(const Equations& e, const State& before, State& after, double dt, d
     if (!cell.wet) continue;
     const double mean = 0.5 * (h(pressure_before(e, before, static_cast<Index>(c))) + h(cell.pressure));
     const bool old = c < before.cells.size();
+    for (std::size_t i = 0; old && e.scene.slip && i < 2; ++i) {
+      const double slid = cell.points[i].plastic_slip - before.cells[c].points[i].plastic_slip;
+      const auto opening = openings(e.path.edges()[c], after.jumps)[i];
+      const double drag =
+          e.laws[c]
+              .traction(opening, slips(e.path.edges()[c], after.jumps)[i], cell.points[i].max_opening,
+                        cell.points[i].plastic_slip, cell.points[i].in_situ, cell.points[i].in_situ_shear)
+              .friction;
+      sum.friction += 0.5 * e.path.edges()[c].length * drag * slid;
+    }
     const double gained = cell.mass - (old ? before.cells[c].mass : 0.0);
     const double lost = cell.leaked - (old ? before.cells[c].leaked : 0.0);
     sum.entry += (well - mean) * entered[c];
@@ -86,7 +97,7 @@ void account(const Equations& e, const State& before, State& after, double dt, d
   sum.faces = now.faces - after.initial.faces;
   sum.fracture = now.fracture - after.initial.fracture;
   const double left = sum.pumped - (sum.well + sum.entry + sum.viscous + sum.leaked + sum.fluid + sum.strain +
-                                    sum.confinement + sum.faces + sum.fracture);
+                                    sum.confinement + sum.faces + sum.fracture + sum.friction);
   sum.residual = std::abs(left) / std::max({sum.pumped, sum.well, 1e-30});
 }
 

@@ -6,6 +6,7 @@
 //   viscous     −Σ h (Δm + leaked − q Δt)  leaked  Σ h V_leak
 //   fluid       Σ m h − (p − p_pore) V
 //   strain      ½ δᵀ S δ                    confinement  −∫ σ'_n w ds
+//   friction    Σ τ Δs_p of closed faces (their elastic slip is left out)
 //   faces       ∫ what bonds and asperities give back ds     fracture  ∫ G(w_m) ds
 // The fluid's work on the faces follows from the rest; so a step too long, or an equation that is not
 // solved, shows as residual.

@@ -23,6 +23,25 @@ double opening_of(const std::vector<JumpTerm>& terms, const std::vector<double>&
   for (const JumpTerm& t : terms) w += t.normal * jumps[at(t.unknown)];
   return w;
 }
+double slip_of(const std::vector<JumpTerm>& terms, const std::vector<double>& jumps) {
+  double s = 0.0;
+  for (const JumpTerm& t : terms) s += t.tangent * jumps[at(t.unknown)];
+  return s;
+}
+
+// Tractions at a point; without slip those of a straight path.
+MixedTraction traction_at(const Equations& e, const State& s, std::size_t c, std::size_t i, double opening) {
+  const Point& point = s.cells[c].points[i];
+  if (e.scene.slip) {
+    return e.laws[c].traction(opening, slip_of(e.path.edges()[c].jump[i], s.jumps), point.max_opening,
+                              point.plastic_slip, point.in_situ, point.in_situ_shear);
+  }
+  const TractionSlope t = e.laws[c].traction(opening, point.max_opening, point.in_situ);
+  MixedTraction all;
+  all.normal = t.traction;
+  all.nn = t.slope;
+  return all;
+}
 
 // The equations of one Newton iteration. Unknowns of the fluid: pressures of wet cells, rates of
 // inlets, pressure of the well.
@@ -105,7 +124,7 @@ class System {
     for (std::size_t c = 0; c < s_.cells.size(); ++c) {
       const auto now = openings(e_.path.edges()[c], s_.jumps);
       for (std::size_t i = 0; i < 2; ++i) {
-        if (s_.cells[c].points[i].max_opening <= e_.laws[c].elastic_opening()) continue;
+        if (s_.cells[c].points[i].max_opening <= e_.laws[c].elastic_opening() || now[i] <= 0.0) continue;
         double change = 0.0;
         for (const JumpTerm& t : e_.path.edges()[c].jump[i]) change += t.normal * step[t.unknown];
         if (change < -0.7 * now[i]) share = std::min(share, -0.7 * now[i] / change);
@@ -150,17 +169,25 @@ class System {
       const double p = source < 0 ? e_.scene.pore_pressure : s_.cells[at(source)].pressure;
       for (std::size_t i = 0; i < 2; ++i) {
         const Point& point = s_.cells[c].points[i];
-        const TractionSlope t = e_.laws[c].traction(open[i], point.max_opening, point.in_situ);
+        MixedTraction t = traction_at(e_, s_, c, i, open[i]);
         const double weight = 0.5 * edge.length;
-        const double slope = careful_ ? std::max(t.slope, 0.0) : t.slope;
-        const double load = weight * (p - e_.scene.pore_pressure - t.traction + point.in_situ);
+        if (careful_) {
+          t.nn = std::max(t.nn, 0.0);
+          t.ss = std::max(t.ss, 0.0);
+        }
+        const double load = weight * (p - e_.scene.pore_pressure - t.normal + point.in_situ);
+        const double drag = weight * (point.in_situ_shear - t.shear);
         for (const JumpTerm& a : edge.jump[i]) {
-          rock_residual_[a.unknown] -= load * a.normal;
+          rock_residual_[a.unknown] -= load * a.normal + drag * a.tangent;
           rock_scale_ += weight *
-                         (std::abs(p - e_.scene.pore_pressure) + std::abs(t.traction - point.in_situ)) *
+                         (std::abs(p - e_.scene.pore_pressure) + std::abs(t.normal - point.in_situ)) *
                          std::abs(a.normal);
-          for (const JumpTerm& b : edge.jump[i])
-            stiffness_(a.unknown, b.unknown) += weight * slope * a.normal * b.normal;
+          for (const JumpTerm& b : edge.jump[i]) {
+            stiffness_(a.unknown, b.unknown) += weight * t.nn * a.normal * b.normal;
+            if (!e_.scene.slip) continue;
+            stiffness_(a.unknown, b.unknown) +=
+                weight * (t.sn * a.tangent * b.normal + t.ss * a.tangent * b.tangent);
+          }
           if (source >= 0 && pressure_[at(source)] >= 0)
             by_fluid_.emplace_back(a.unknown, pressure_[at(source)], -weight * a.normal * pressure_unit);
         }
@@ -211,7 +238,7 @@ class System {
           if (at(other) < c) first = false;
           around.push_back(other);
           const PathEdge& edge = e_.path.edges()[at(other)];
-          if (edge.parent < 0 && edge.vertex[0] == vertex) well = true;
+          if (edge.parent == -1 && edge.vertex[0] == vertex) well = true;
         }
         if (first && !well && around.size() > 1) add_star(around);
       }
@@ -295,7 +322,11 @@ class System {
 }  // namespace
 
 std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& jumps) {
-  return {opening_of(edge.jump[0], jumps), opening_of(edge.jump[1], jumps)};
+  return {edge.aperture + opening_of(edge.jump[0], jumps), edge.aperture + opening_of(edge.jump[1], jumps)};
+}
+
+std::array<double, 2> slips(const PathEdge& edge, const std::vector<double>& jumps) {
+  return {slip_of(edge.jump[0], jumps), slip_of(edge.jump[1], jumps)};
 }
 
 Index pressure_source(const Equations& equations, const State& state, Index cell) {

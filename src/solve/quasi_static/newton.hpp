@@ -23,8 +23,9 @@ struct Equations {
   const std::optional<MatrixDiffusion>& matrix;
 };
 
-/// Opening [m] at the two ends of a path edge.
+/// Opening [m] at the two ends of a path edge, and slip.
 std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& jumps);
+std::array<double, 2> slips(const PathEdge& edge, const std::vector<double>& jumps);
 
 /// Pressure on the faces of a path edge [Pa]: of its own cell, or as the wetting rule says.
 /// @return the cell that gives it, -1: the pore pressure

@@ -21,13 +21,17 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+constexpr Index of_joint = -2;  // parent of a cell
+
 void check(const QuasiStaticScene& scene) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw CaseError(std::string("quasi-static stage: ") + what);
   };
   require(!scene.wings.empty(), "no fracture to start from");
   for (const Wing& wing : scene.wings)
-    require(wing.open >= 1 && wing.open < wing.path.size(), "a wing needs an open edge and one ahead of it");
+    require(wing.open >= 1 && wing.open < wing.path.size() + (wing.free ? 1 : 0),
+            "a wing needs an open edge and one ahead of it");
+  require(scene.slip || scene.joints.empty(), "joints slip: give slip");
   require(scene.tensile_strength > 0.0 && scene.fracture_energy > 0.0,
           "tensile strength and fracture energy have to be positive");
   require(
@@ -47,7 +51,7 @@ class QuasiStatic::Solver {
   explicit Solver(QuasiStaticScene scene)
       : scene_((check(scene), std::move(scene))),
         bulk_(*scene_.mesh, scene_.stiffness, 1.0, scene_.stress, {}),
-        path_(scene_.mesh, scene_.held, false),
+        path_(scene_.mesh, scene_.held, scene_.slip),
         rock_(scene_.mesh, bulk_, scene_.held),
         equations_{scene_, path_, rock_, laws_, matrix_} {
     if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
@@ -56,6 +60,7 @@ class QuasiStatic::Solver {
   void begin() {
     state_.well_pressure = scene_.pore_pressure;
     state_.connected = !scene_.well.breakdown_pressure.has_value();
+    for (const Index edge : scene_.joints) add_joint(edge);
     for (std::size_t w = 0; w < scene_.wings.size(); ++w) start(static_cast<Index>(w));
     settle();
     state_.step = scene_.control.first;
@@ -155,33 +160,129 @@ class QuasiStatic::Solver {
  private:
   // Makes a mesh edge part of the path.
   Index join(Index mesh_edge, Index inner, Index parent) {
-    const Index c = path_.add(mesh_edge, inner, parent);
+    const bool joint = parent == of_joint;
+    const Index c = path_.add(mesh_edge, inner, parent, joint ? mated_aperture(mesh_edge) : 0.0);
     laws_.emplace_back(
         scene_.law,
         resolved_strength(scene_.tensile_strength, plane_strain_modulus(scene_.stiffness),
                           scene_.fracture_energy, path_.edges()[at(c)].length, scene_.edges_per_zone),
-        scene_.fracture_energy, scene_.closure);
+        scene_.fracture_energy, scene_.closure,
+        ShearLaw{scene_.shear.ratio, joint ? scene_.joint_friction : scene_.shear.friction});
     return c;
   }
 
-  // Adds the next edge of a wing behind `parent`, intact and dry.
-  Index extend(qs::State& state, Index wing, Index parent, std::size_t number) {
-    const Wing& w = scene_.wings[at(wing)];
+  // In-situ tractions across an edge and along it [Pa].
+  void set_in_situ(qs::Cell& cell, const PathEdge& edge) const {
+    const Vec2 pull = scene_.stress * edge.normal;
+    for (qs::Point& p : cell.points) {
+      p.in_situ = dot(edge.normal, pull);
+      if (scene_.slip) p.in_situ_shear = dot(Vec2{-edge.normal.y, edge.normal.x}, pull);
+    }
+  }
+
+  double mated_aperture(Index mesh_edge) const {
+    const auto& v = scene_.mesh->edges[at(mesh_edge)].vertex;
+    const Vec2 along = scene_.mesh->vertices[at(v[1])] - scene_.mesh->vertices[at(v[0])];
+    const Vec2 normal = (1.0 / norm(along)) * right_normal(along);
+    return scene_.closure.opening(-dot(normal, scene_.stress * normal));
+  }
+
+  void add_joint(Index mesh_edge) {
     qs::Cell cell;
-    cell.edge = w.path[number];
-    cell.inner = parent < 0 ? w.start : path_.edges()[at(parent)].vertex[1];
-    cell.parent = parent;
-    const Index c = join(cell.edge, cell.inner, parent);
-    const PathEdge& edge = path_.edges()[at(c)];
-    for (qs::Point& p : cell.points) p.in_situ = dot(edge.normal, scene_.stress * edge.normal);
+    cell.edge = mesh_edge;
+    cell.inner = scene_.mesh->edges[at(mesh_edge)].vertex[0];
+    cell.parent = of_joint;
+    cell.wet = 1;
     cell.pressure = scene_.pore_pressure;
+    const Index c = join(mesh_edge, cell.inner, of_joint);
+    set_in_situ(cell, path_.edges()[at(c)]);
+    for (qs::Point& p : cell.points)
+      p.max_opening = std::max(laws_[at(c)].broken_opening(), scene_.closure.residual_aperture);
+    append(state_, cell);
+  }
+
+  void append(qs::State& state, const qs::Cell& cell) const {
     if (matrix_) {
       state.matrix.resize(state.matrix.size() + matrix_->cells(),
                           std::get<MatrixRock>(scene_.leak_off).reservoir_pressure);
     }
     state.cells.push_back(cell);
     state.jumps.resize(path_.unknowns().size(), 0.0);
+  }
+
+  // Adds the next edge of a wing behind `parent`, intact and dry.
+  Index extend(qs::State& state, Index wing, Index parent, std::size_t number) {
+    const Wing& w = scene_.wings[at(wing)];
+    qs::Cell cell;
+    cell.inner = parent < 0 ? w.start : path_.edges()[at(parent)].vertex[1];
+    cell.edge = number < w.path.size() ? w.path[number] : choose_edge(state, parent);
+    cell.parent = parent;
+    const Index c = join(cell.edge, cell.inner, parent);
+    const PathEdge& edge = path_.edges()[at(c)];
+    set_in_situ(cell, edge);
+    cell.pressure = scene_.pore_pressure;
+    append(state, cell);
     return c;
+  }
+
+  // The edge that a free wing takes next at the outer vertex of its last cell: of those that turn by less
+  // than 100 degrees, the one along which it would open against the largest pull, by the mean stress round
+  // the vertex.
+  Index choose_edge(const qs::State& state, Index cell) {
+    const PathEdge& from = path_.edges()[at(cell)];
+    const Index tip = from.vertex[1];
+    const auto place = [&](Index v) { return scene_.mesh->vertices[at(v)]; };
+    const Vec2 ahead = (1.0 / from.length) * (place(tip) - place(from.vertex[0]));
+    const Sym2 stress = mean_stress(state, tip);
+    Index best = -1;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Index t : path_.fan(tip)) {
+      for (const Index e : scene_.mesh->triangle_edges[at(t)]) {
+        const Edge& edge = scene_.mesh->edges[at(e)];
+        if ((edge.vertex[0] != tip && edge.vertex[1] != tip) || path_.holds(e) || edge.triangle[1] < 0)
+          continue;
+        const Vec2 along = place(edge.vertex[0] == tip ? edge.vertex[1] : edge.vertex[0]) - place(tip);
+        if (dot(along, ahead) < -0.17 * norm(along)) continue;
+        const Vec2 normal = (1.0 / norm(along)) * right_normal(along);
+        const double pull = dot(normal, stress * normal);
+        if (pull > most) {
+          most = pull;
+          best = e;
+        }
+      }
+    }
+    if (best < 0)
+      throw NumericalError(
+          fmt::format("quasi-static stage: at {:g} s the fracture has come to the boundary at "
+                      "({:g}, {:g}); make the domain larger, or end the run earlier",
+                      state.time, place(tip).x, place(tip).y));
+    return best;
+  }
+
+  // Mean effective stress [Pa] of the triangles round a vertex, by area.
+  Sym2 mean_stress(const qs::State& state, Index vertex) {
+    rock_.follow(path_.unknowns());
+    const std::vector<Vec2> u = rock_.displacement(state.jumps);
+    Sym2 sum;
+    double area = 0.0;
+    for (const Index t : path_.fan(vertex)) {
+      const auto g = bulk_.shape_gradients(t);
+      Sym2 strain;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index v = scene_.mesh->triangles[at(t)][i];
+        Vec2 d = u[at(v)];
+        for (std::size_t k = 0; k < state.jumps.size(); ++k) {
+          const JumpUnknown& unknown = path_.unknowns()[k];
+          if (unknown.vertex == v &&
+              std::binary_search(unknown.triangles.begin(), unknown.triangles.end(), t))
+            d += state.jumps[k] * unknown.direction;
+        }
+        strain = strain + Sym2{d.x * g[i].x, d.y * g[i].y, 0.5 * (d.x * g[i].y + d.y * g[i].x)};
+      }
+      sum = sum + bulk_.area(t) * (scene_.stress + scene_.stiffness.stress(strain));
+      area += bulk_.area(t);
+    }
+    return (1.0 / area) * sum;
   }
 
   void start(Index wing) {
@@ -208,7 +309,7 @@ class QuasiStatic::Solver {
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
       for (std::size_t i = 0; i < 2; ++i) {
         const qs::Point& p = state_.cells[c].points[i];
-        if (p.max_opening == 0.0) continue;
+        if (p.max_opening == 0.0 || state_.cells[c].parent == of_joint) continue;
         for (const JumpTerm& t : path_.edges()[c].jump[i]) {
           state_.jumps[at(t.unknown)] = t.normal * scene_.closure.opening(-p.in_situ);
         }
@@ -282,8 +383,8 @@ class QuasiStatic::Solver {
   void grow(qs::State& state, qs::Tip& tip) {
     const Wing& wing = scene_.wings[at(tip.wing)];
     const auto here = std::find(wing.path.begin(), wing.path.end(), path_.edges()[at(tip.cell)].edge);
-    const auto next = static_cast<std::size_t>(here - wing.path.begin()) + 1;
-    if (next >= wing.path.size()) {
+    const auto next = std::min(static_cast<std::size_t>(here - wing.path.begin()) + 1, wing.path.size());
+    if (next >= wing.path.size() && !wing.free) {
       throw NumericalError(
           fmt::format("quasi-static stage: at {:g} s the fracture has come to the end of its path; "
                       "make the path longer, or end the run earlier",
@@ -332,8 +433,16 @@ class QuasiStatic::Solver {
           matrix_->advance(std::span(trial.matrix).subspan(c * n, n), dt, cell.pressure);
         }
       }
-      for (std::size_t i = 0; i < 2; ++i)
-        cell.points[i].max_opening = std::max(cell.points[i].max_opening, w[i]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        qs::Point& p = cell.points[i];
+        if (scene_.slip) {
+          p.plastic_slip = laws_[c]
+                               .traction(w[i], qs::slips(path_.edges()[c], trial.jumps)[i], p.max_opening,
+                                         p.plastic_slip, p.in_situ, p.in_situ_shear)
+                               .plastic_slip;
+        }
+        p.max_opening = std::max(p.max_opening, w[i]);
+      }
       const double damage =
           laws_[c].damage(cell.points[0].max_opening) + laws_[c].damage(cell.points[1].max_opening);
       if (cell.wet && damage >= 1.0) cell.exposed = std::min(cell.exposed, until);
@@ -380,12 +489,13 @@ class QuasiStatic::Solver {
       const auto w = qs::openings(edge, state_.jumps);
       for (std::size_t i = 0; i < 2; ++i) {
         const double half = 0.5 * edge.length, most = cell.points[i].max_opening;
+        if (cell.parent == of_joint) continue;
         row.dissipated += half * laws_[c].dissipated(most);
         if (most >= laws_[c].broken_opening()) row.broken_length += half;
         if (most > laws_[c].elastic_opening()) row.damaged_length += half;
         if (cell.wet && w[i] < std::min(most, scene_.closure.residual_aperture)) touching += half;
       }
-      if (!cell.wet) continue;
+      if (!cell.wet || cell.parent == of_joint) continue;
       wet += edge.length;
       row.mean_opening += 0.5 * edge.length * (w[0] + w[1]);
       row.least_pressure = std::min(row.least_pressure, cell.pressure);

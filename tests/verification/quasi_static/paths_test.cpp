@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Paths that nobody lays down: free growth, kinks, two unequal wings, a joint on the way; toughness vertex,
+// so that lengths and pressures are known.
+#include <gtest/gtest.h>
+
+#include <ctime>
+
+#include "../../acceptance.hpp"
+#include "wing.hpp"
+
+namespace crackle {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr double young = 30e9, poisson = 0.25, rate = 1e-4, toughness = 1e6, pore = 10.56e6;
+const double modulus = young / (1.0 - poisson * poisson);
+
+QuasiStaticScene scene_on(std::shared_ptr<const Mesh> mesh, Sym2 stress) {
+  QuasiStaticScene s;
+  s.mesh = std::move(mesh);
+  s.slip = true;
+  s.stiffness = isotropic_plane_strain(young, poisson);
+  s.pore_pressure = pore;
+  s.stress = stress;
+  s.law = find_law("linear");
+  s.fracture_energy = toughness * toughness / modulus;
+  s.tensile_strength = 10e6;
+  s.closure.residual_aperture = 1e-5;
+  s.fluid.viscosity = 1e-6;
+  s.fluid.cavitation_pressure = 0.0;
+  s.fluid.reference_pressure = pore;
+  s.pump = Pump({{0.0, 1e9, rate}});
+  return s;
+}
+
+/// A square of side 2 R [m], cells of `step` [m] cut into four; held at its rim.
+QuasiStaticScene square(double radius, double step, Sym2 stress) {
+  const int n = static_cast<int>(std::lround(2.0 * radius / step));
+  QuasiStaticScene s = scene_on(std::make_shared<const Mesh>(structured_rectangle(
+                                    {-radius, -radius}, {radius, radius}, n, n, MeshPattern::cross)),
+                                stress);
+  s.held.assign(s.mesh->vertices.size(), 0);
+  for (const Edge& e : s.mesh->edges) {
+    if (e.triangle[1] < 0) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
+  }
+  return s;
+}
+
+/// A wide body with fine edges within `fine` [m] of the middle of y = 0; free, held at two far points.
+QuasiStaticScene wide(double fine, double step, Sym2 stress) {
+  const auto line = [&](double even, double ratio) {
+    const std::vector<double> half = graded_line(0.0, even, 20.0 * fine, {step, ratio});
+    std::vector<double> both;
+    for (std::size_t i = half.size(); i-- > 1;) both.push_back(-half[i]);
+    both.insert(both.end(), half.begin(), half.end());
+    return both;
+  };
+  QuasiStaticScene s =
+      scene_on(std::make_shared<const Mesh>(grid_rectangle(line(fine, 1.2), line(6.0 * step, 1.15))), stress);
+  s.held.assign(s.mesh->vertices.size(), 0);
+  for (std::size_t v = 0; v < s.held.size(); ++v) {
+    const Vec2 p = s.mesh->vertices[v];
+    if (p.y == 0.0 && std::abs(p.x) > 19.9 * fine) s.held[v] = p.x > 0.0 ? 2 : 3;
+  }
+  return s;
+}
+
+Index vertex_at(const Mesh& mesh, Vec2 where) {
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (norm(mesh.vertices[at(v)] - where) < 1e-9) return v;
+  }
+  return -1;
+}
+
+/// A wing along a line from the well, all of it open; on from there it is free.
+Wing free_wing(const QuasiStaticScene& s, Vec2 well, Vec2 end) {
+  Wing w;
+  w.start = vertex_at(*s.mesh, well);
+  w.path = edges_along(*s.mesh, well, end);
+  w.open = w.path.size();
+  w.free = true;
+  return w;
+}
+
+/// Half length [m] and pressure [Pa] of a fracture of so much volume [m2] at the toughness vertex.
+struct Vertex {
+  double half_length, pressure;
+};
+Vertex vertex_of(double volume) {
+  const double a = std::pow(modulus * volume / (2.0 * std::sqrt(M_PI) * toughness), 2.0 / 3.0);
+  return {a, toughness / std::sqrt(M_PI * a)};
+}
+
+Vec2 middle(const QuasiStatic& stage, const PathEdge& e) {
+  const Mesh& mesh = *stage.scene().mesh;
+  return 0.5 * (mesh.vertices[at(e.vertex[0])] + mesh.vertices[at(e.vertex[1])]);
+}
+
+// The well is not in the middle of the notch: both tips still carry the same stress intensity.
+TEST(Paths, UnequalWings) {
+  QuasiStaticScene s = wide(10.0, 0.25, {-18.3e6, -9.44e6, 0.0});
+  s.wings = {free_wing(s, {-2.0, 0.0}, {3.0, 0.0}), free_wing(s, {-2.0, 0.0}, {-3.0, 0.0})};
+  QuasiStatic stage(s);
+  wing::Errors pressure, length;
+  QuasiStaticRow last;
+  stage.run(20.0, [&](const QuasiStaticRow& row) {
+    last = row;
+    if (row.time < 8.0) return;
+    const Vertex exact = vertex_of(row.fracture_volume);
+    pressure.add(row.step, row.fracture_pressure - pore - 9.44e6, exact.pressure);
+    length.add(row.step, 0.25 * (row.broken_length + row.damaged_length), exact.half_length);
+  });
+  double low = 0.0, high = 0.0, off = 0.0;
+  const std::vector<FractureCell> cells = stage.cells();
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].damage[0] < 0.5) continue;
+    const Vec2 p = middle(stage, stage.path().edges()[c]);
+    low = std::min(low, p.x);
+    high = std::max(high, p.x);
+    off = std::max(off, std::abs(p.y));
+  }
+  std::printf("unequal wings: x from %.2f to %.2f m, off the line by %.2f m; energy residual %.1e\n", low,
+              high, off, last.energies.residual);
+  accept(19, "free path, unequal wings of 5 and 1 m: pressure, length against the toughness vertex", "3, 5 %",
+         text("%+.2f, %+.2f %%", pressure.mean(), length.mean()),
+         std::abs(pressure.mean()) <= 3.0 && std::abs(length.mean()) <= 5.0);
+  EXPECT_EQ(off, 0.0);
+  EXPECT_LT(std::abs(pressure.mean()), 3.0);
+  EXPECT_LT(std::abs(length.mean()), 5.0);
+  EXPECT_LT(std::abs(last.mass_defect), 1e-8 * last.injected);
+  EXPECT_NEAR(high + low, 0.0, 1.0) << "about the middle of the notch";
+}
+
+// A notch at 45 degrees turns across the least compression.
+TEST(Paths, Kink) {
+  QuasiStaticScene s = square(20.0, 0.5, {-10.5e6, -9.44e6, 0.0});
+  s.wings = {free_wing(s, {0.0, 0.0}, {1.0, 1.0}), free_wing(s, {0.0, 0.0}, {-1.0, -1.0})};
+  QuasiStatic stage(s);
+  QuasiStaticRow last;
+  stage.run(10.0, [&](const QuasiStaticRow& row) { last = row; });
+  const std::vector<FractureCell> cells = stage.cells();
+  Vec2 left{0, 0}, right{0, 0};
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].damage[0] < 0.5) continue;
+    const Vec2 p = middle(stage, stage.path().edges()[c]);
+    if (p.x < left.x) left = p;
+    if (p.x > right.x) right = p;
+  }
+  const double turn = 180.0 / M_PI * std::atan2(right.y - 1.0, right.x - 1.0);
+  const Vertex exact = vertex_of(last.fracture_volume);
+  const double p = 100.0 * ((last.fracture_pressure - pore - 9.44e6) / exact.pressure - 1.0);
+  std::printf(
+      "kink: tips at (%.2f, %.2f) and (%.2f, %.2f); straight fracture of that volume: half-length %.2f m; "
+      "energy residual %.1e\n",
+      left.x, left.y, right.x, right.y, exact.half_length, last.energies.residual);
+  accept(
+      20,
+      "notch at 45 degrees, free path: direction from the notch's end; pressure against a straight fracture",
+      "0 to 15 degrees; printed", text("%.1f degrees; %+.1f %%", turn, p), turn >= 0.0 && turn <= 15.0);
+  EXPECT_GE(turn, 0.0);
+  EXPECT_LE(turn, 15.0);
+  EXPECT_GT(right.x - left.x, 6.0);
+  EXPECT_NEAR(left.x + right.x, 0.0, 1.01);
+  EXPECT_LT(std::abs(last.mass_defect), 1e-8 * last.injected);
+}
+
+struct Met {
+  double beyond = 0.0, slip = 0.0, pressure = 0.0, in_joint = 0.0;
+};
+// A joint across the way at x = 2 m, 8 m long.
+Met meet_joint(double along, double friction) {
+  QuasiStaticScene s = square(16.0, 0.5, {along, -9.44e6, 0.0});
+  s.joint_friction = friction;
+  s.joints = edges_along(*s.mesh, {2.0, -4.0}, {2.0, 4.0});
+  s.wings = {free_wing(s, {0.0, 0.0}, {1.0, 0.0}), free_wing(s, {0.0, 0.0}, {-1.0, 0.0})};
+  QuasiStatic stage(s);
+  QuasiStaticRow last;
+  stage.run(12.0, [&](const QuasiStaticRow& row) { last = row; });
+  Met met;
+  const std::vector<FractureCell> cells = stage.cells();
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const PathEdge& e = stage.path().edges()[c];
+    if (e.parent == -2) {
+      met.slip = std::max(met.slip, std::abs(stage.state().cells[c].points[0].plastic_slip));
+      met.in_joint = std::max(met.in_joint, cells[c].pressure - pore);
+    } else if (cells[c].damage[0] >= 0.5) {
+      met.beyond = std::max(met.beyond, middle(stage, e).x - 2.0);
+    }
+  }
+  met.pressure = last.fracture_pressure - pore - 9.44e6;
+  std::printf(
+      "joint, friction %.2f, %.1f MPa along: fracture %.2f m beyond, slip %.1f um, net pressure %.3f MPa, in "
+      "the joint %.2f MPa above pore\n",
+      friction, along * 1e-6, met.beyond, 1e6 * met.slip, 1e-6 * met.pressure, 1e-6 * met.in_joint);
+  EXPECT_LT(std::abs(last.mass_defect), 1e-8 * last.injected);
+  return met;
+}
+
+TEST(Paths, MeetsAJoint) {
+  const Met crosses = meet_joint(-18.3e6, 0.9), stops = meet_joint(-9.6e6, 0.02);
+  accept(21, "joint across the way: length beyond it, rough under high stress along; smooth under low",
+         "crosses; stops", text("%.2f m; %.2f m", crosses.beyond, stops.beyond),
+         crosses.beyond > 0.5 && stops.beyond < 0.5);
+  EXPECT_GT(crosses.beyond, 0.5);
+  EXPECT_LT(stops.beyond, 0.5);
+  EXPECT_GT(stops.slip, crosses.slip);
+  EXPECT_GT(crosses.in_joint, 0.0);
+}
+
+}  // namespace
+}  // namespace crackle
