@@ -163,7 +163,7 @@ def draw_summary(rows, path):
     look.name_axes(asymmetry, "Broken length, joint's side over the other, 0.30 ms after breakdown",
                    "distance of the joint / L", "asymmetry index")
     asymmetry.plot([], [], "o", color=look.INK, markerfacecolor="white", label="same mesh, joint healed")
-    asymmetry.set_yscale("log")
+    asymmetry.set_ylim(0.5, 1.3)
     for axes in (threshold, asymmetry):
         axes.set_xticks(list(DISTANCES.values()))
         axes.legend(loc="best", fontsize=8)
