@@ -30,7 +30,7 @@ struct StressScreen {
 };
 
 /// Effective stress of the rock before anything is done to it [Pa], tension positive.
-struct InSituStress {
+struct InSituStress {  // NOLINTNEXTLINE(google-explicit-constructor): a stress without gradient is one
   InSituStress(Sym2 at_origin = {}, Sym2 per_depth = {}) : origin(at_origin), gradient(per_depth) {}
   Sym2 origin;
   Sym2 gradient;  ///< change per metre of depth, which is −y [Pa/m]; its xy is 0
