@@ -88,6 +88,15 @@ struct Crack {
   }
 };
 
+Sym2 rate_of(const State& state, const std::array<Vec2, 3>& gradients, Index triangle) {
+  Sym2 rate;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 v = state.velocity[at(state.node_of_corner[3 * at(triangle) + i])], g = gradients[i];
+    rate = rate + Sym2{v.x * g.x, v.y * g.y, 0.5 * (v.x * g.y + v.y * g.x)};
+  }
+  return rate;
+}
+
 double kinetic_energy(const State& state, const Bulk& bulk, Index triangle) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -215,9 +224,25 @@ void Damage::crack(State& state, const Bulk& bulk, Index t, const CrackStart& st
   }
   if (lowered) ++state.damage.lowered;
   const double before = bulk.strain_energy(state, t);
+  const auto gradients = bulk.shape_gradients(t);
+  const Stretch f = stretch_of(state, gradients, t);
+  DamagedTriangle intact = d;
+  intact.stress = bulk.stiffness().stress(f.u + Sym2{-1.0, -1.0, 0.0}) + bulk.in_situ(t);
+  set_forces(intact, f, gradients, bulk.area(t));
   evaluate(state, bulk, d);
-  // What the triangle loses at this strain, by passing its strength within a step.
+  // What the triangle loses at this strain, by passing its strength within a step, and what its forces that
+  // jump now leave of the work of the last step.
   d.fracture_energy = before - d.stored;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 v = state.velocity[at(state.node_of_corner[3 * at(t) + k])];
+    d.fracture_energy -= 0.5 * state.time_step * dot(d.force[k] - intact.force[k], v);
+  }
+  // It is not damped from now on: the second half of the last step's viscous work.
+  if (bulk.viscous()) {
+    const Sym2 rate = rate_of(state, gradients, t);
+    state.dissipation.viscous +=
+        0.5 * state.time_step * bulk.area(t) * bulk.viscosity(t) * product(state.strain_rate[at(t)], rate);
+  }
   d.sliding_work = start.in_shear ? d.fracture_energy : 0.0;
   d.friction_energy = d.dropped = 0.0;
   state.dissipation.fracture += d.fracture_energy;
