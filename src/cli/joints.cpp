@@ -50,6 +50,9 @@ JointSet random_set(const Case::JointSet& set, double wellbore_radius) {
   return random;
 }
 
+/// Whether a mesh made from the case has the crack of fracture.notch, as the last of its sets of joints.
+bool has_notch(const Case& scene) { return scene.mesh.file.empty() && scene.fracture.notch > 0.0; }
+
 /// Of a set of the mesh. In a mesh that was made from the case they are numbered as add_joints() has them, in
 /// one from a file they go by name.
 const Case::JointProperties& properties_of(const Case& scene, const Mesh& mesh, std::size_t set) {
@@ -85,12 +88,18 @@ void add_joints(const Case& scene, MeshRecipe& recipe) {
                          : read_joints_csv(set.file, number);
     recipe.joints.insert(recipe.joints.end(), joints.begin(), joints.end());
   }
+  if (has_notch(scene)) {
+    const double half = scene.fracture.notch;
+    recipe.joints.push_back({{-half, 0.0}, {half, 0.0}, static_cast<Index>(recipe.joint_sets.size())});
+    recipe.joint_sets.emplace_back("notch");
+  }
 }
 
 void set_joints(const Case& scene, Scene& solver_scene) {
   const Mesh& mesh = *solver_scene.mesh;
   std::vector<bool> bonded;
-  for (std::size_t set = 0; set < mesh.joint_sets.size(); ++set) {
+  const std::size_t joint_sets = mesh.joint_sets.size() - (has_notch(scene) ? 1 : 0);
+  for (std::size_t set = 0; set < joint_sets; ++set) {
     const Case::JointProperties& joint = properties_of(scene, mesh, set);
     bonded.push_back(joint.law == "bonded");
     CohesiveMaterial material = solver_scene.cohesive;
@@ -110,6 +119,10 @@ void set_joints(const Case& scene, Scene& solver_scene) {
     const Edge& edge = mesh.edges[static_cast<std::size_t>(e)];
     if (edge.joint < 0 || edge.kind != EdgeKind::interior) continue;
     const auto set = static_cast<std::size_t>(mesh.set_of_joint[static_cast<std::size_t>(edge.joint)]);
+    if (set == joint_sets) {
+      solver_scene.cracks.push_back(e);
+      continue;
+    }
     solver_scene.joints.push_back({e, static_cast<std::uint16_t>(set + 1), bonded[set]});
   }
   solver_scene.joints_edge_by_edge = scene.fluid.joints == "edge";

@@ -298,6 +298,7 @@ void Fluid::advance(State& state, double dt) {
     if (compliance_[c] == 0.0 && volume_[c] == 0.0) continue;  // merged into another
     const double mass_in = c == 0 ? injected * fluid_.density : 0.0;
     const double before = cavity.pressure;
+    if (cavity.mass == 0.0 && mass_in == 0.0) continue;  // a closed crack, empty as yet
     cavity.mass += mass_in;
     if (!(cavity.mass > 0.0)) {
       throw NumericalError(

@@ -67,6 +67,20 @@ void check_mesh(const Case& scene, const GivenKeys& given) {
   }
 }
 
+void check_notch(const Case& scene, const GivenKeys& given) {
+  const double notch = scene.fracture.notch;
+  if (notch <= 0.0) return;
+  if (!scene.mesh.file.empty()) {
+    fail(given.latest({"fracture.notch", "mesh.file"}),
+         "fracture.notch cannot be cut into mesh.file: give a mesh.generator");
+  }
+  if (notch >= 0.5 * scene.domain.width) {
+    fail(given.latest({"fracture.notch", "domain.width"}),
+         fmt::format("fracture.notch = {} m ends outside the domain, which is {} m wide", notch,
+                     scene.domain.width));
+  }
+}
+
 void resolve_mesh_file(Case& scene, const GivenKeys& given) {
   if (!scene.mesh.file.empty()) scene.mesh.file = resolved_path(scene.mesh.file, given.place("mesh.file"));
 }
@@ -211,6 +225,7 @@ void finish_case(ReadCase& read) {
   check_wellbore(scene, given);
   resolve_mesh_file(scene, given);
   check_mesh(scene, given);
+  check_notch(scene, given);
   finish_run(scene, given);
   finish_pump(scene, given);
   finish_damping(scene.damping, given);

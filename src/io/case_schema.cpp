@@ -256,7 +256,7 @@ std::vector<TableSpec> make_tables() {
       number("breakdown_pressure", slot<&C::well, &C::Well::breakdown_pressure>(), pressure, any, Need::never, "the fracture is shut off from the well until it is reached", "none: open from the start"),
     }},
     {"fracture", {
-      number("notch", slot<&C::fracture, &C::Fracture::notch>(), length, not_negative, Need::never, "half-length broken at first, along x, in the quasi-static regime; 0: none"),
+      number("notch", slot<&C::fracture, &C::Fracture::notch>(), length, not_negative, Need::never, "half-length broken at first, along x from the origin, with fluid in it; 0: none"),
       number("residual_aperture", slot<&C::fracture, &C::Fracture::residual_aperture>(), length, positive, Need::never, "opening of closed faces without effective stress"),
       number("closure_stress", slot<&C::fracture, &C::Fracture::closure_stress>(), pressure, positive, Need::never, "effective stress that closes it to a tenth"),
     }},

@@ -163,9 +163,10 @@ struct Case {
     std::optional<double> breakdown_pressure;  ///< the fracture is shut off below it [Pa]
   } well;
 
-  /// The fracture that a quasi-static run starts from, along x from the origin.
+  /// The fracture that a run starts from, straight along x, its middle in the origin, and how the fracture
+  /// of a quasi-static run closes.
   struct Fracture {
-    double notch = 0.0;               ///< broken half-length at first [m]; 0: none
+    double notch = 0.0;               ///< broken half-length at first, with fluid in it [m]; 0: none
     double residual_aperture = 1e-4;  ///< of mated faces without effective stress [m]
     double closure_stress = 30e6;     ///< that leaves a tenth of it [Pa]
   } fracture;
