@@ -96,6 +96,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     s.pore_pressure = scene.rock.pore_pressure;
     s.initial_pressure = scene.fluid.initial_pressure - s.pore_pressure;
     s.fluid = CompressibleFluid{scene.fluid.bulk_modulus, scene.fluid.density, s.initial_pressure};
+    s.wets_damaged = scene.fluid.wets == "damaged";
     std::vector<PumpStage> stages;
     for (const auto& stage : scene.fluid.pump) stages.push_back({stage.from, stage.to, stage.rate});
     s.pump = Pump(std::move(stages));

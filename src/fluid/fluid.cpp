@@ -147,6 +147,20 @@ std::vector<Index> Fluid::opened_joints(const State& state) const {
   return opened;
 }
 
+std::vector<Index> Fluid::damaged_ahead(const State& state) const {
+  std::vector<Index> ahead;
+  for (const CohesiveHistory& h : state.cohesive.histories) {
+    const Index e = state.cohesive.edge[at(h.element)];
+    if (state.fluid.cavity_of_edge[at(e)] >= 0 || waits(state, e)) continue;
+    const CohesivePoint& middle = h.point[2];
+    if (middle.damage == 0.0 || middle.opening <= 0.0) continue;
+    const auto& v = state.mesh->edges[at(e)].vertex;
+    if (state.fluid.cavity_of_vertex[at(v[0])] >= 0 || state.fluid.cavity_of_vertex[at(v[1])] >= 0)
+      ahead.push_back(h.element);
+  }
+  return ahead;
+}
+
 void Fluid::connect(State& state, std::span<const Index> broken) {
   FluidState& f = state.fluid;
   const Mesh& mesh = *state.mesh;

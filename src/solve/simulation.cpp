@@ -647,6 +647,11 @@ void Simulation::advance(double dt, Energies* account) {
     if (fluid_) fluid_->connect(state_, cohesive_->newly_broken());
     stopwatch_.lap(Stopwatch::fluid);
   }
+  if (fluid_ && scene_.wets_damaged) {
+    const std::vector<Index> damaged = fluid_->damaged_ahead(state_);
+    if (!damaged.empty()) fluid_->connect(state_, damaged);
+    stopwatch_.lap(Stopwatch::fluid);
+  }
   if (fluid_ && scene_.joints_edge_by_edge) {
     const std::vector<Index> opened = fluid_->opened_joints(state_);
     if (!opened.empty()) fluid_->connect(state_, opened);

@@ -50,6 +50,10 @@ class Fluid {
   /// Dry elements of joints that have opened next to a cavity: to connect().
   std::vector<Index> opened_joints(const State& state) const;
 
+  /// Dry elements next to a cavity that have begun to open, broken or not: to connect(), where the fluid
+  /// does not wait until they break.
+  std::vector<Index> damaged_ahead(const State& state) const;
+
   /// One step, after the rock has moved without the fluid (v*, x*): pumps, finds the pressure that
   /// fits the volume with it, and moves the wetted nodes on:
   ///   V(x*) + Δt² s p = (m/ρ₀) exp(−(p − p₀)/K_f),  s = Σ |∂V/∂x_i|² / m_i
