@@ -138,6 +138,13 @@ void finish_bedding(Case::Rock& rock, const GivenKeys& given) {
   }
 }
 
+void finish_preset(Case::Cohesive& cohesive, const GivenKeys& given) {
+  if (cohesive.preset != "y_geo") return;
+  if (!given.has("cohesive.law")) cohesive.law = "evans_marathe";
+  if (!given.has("cohesive.calibration")) cohesive.calibration = "y_geo";
+  if (!given.has("cohesive.insertion")) cohesive.insertion = "all";
+}
+
 void check_compliance(const Case& scene, const GivenKeys& given) {
   if (scene.cohesive.compliance != "compensated" || scene.cohesive.insertion == "all") return;
   fail(given.latest({"cohesive.compliance", "cohesive.insertion"}),
@@ -230,6 +237,7 @@ void finish_case(ReadCase& read) {
   finish_pump(scene, given);
   finish_damping(scene.damping, given);
   finish_bedding(scene.rock, given);
+  finish_preset(scene.cohesive, given);
   check_compliance(scene, given);
   finish_damage(scene, given);
   check_leak_off(scene, given);

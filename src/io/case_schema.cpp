@@ -172,6 +172,7 @@ std::vector<TableSpec> make_tables() {
       number("bedding_angle", slot<&C::rock, &C::Rock::bedding_angle>(), angle, any, Need::never, "from x to the bedding, anticlockwise"),
     }},
     {"cohesive", {
+      choice("preset", slot<&C::cohesive, &C::Cohesive::preset>(), {"accurate", "y_geo"}, "defaults of law, calibration and insertion; \"y_geo\": evans_marathe, y_geo, all edges, as in Y-Geo"),
       choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear", "benzeggagh_kenane"}, "softening law of the cohesive elements"),
       choice("calibration", slot<&C::cohesive, &C::Cohesive::calibration>(), {"y_geo", "exact"}, "of the softening length: 3G/f, or so that G is dissipated"),
       choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all", "on_demand", "none"}, "which edges carry a cohesive element; none: the rock breaks by smeared damage"),

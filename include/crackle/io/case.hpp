@@ -101,12 +101,13 @@ struct Case {
   } rock;
 
   struct Cohesive {
-    std::string law = "evans_marathe";  ///< a registered law
-    std::string calibration = "exact";  ///< "y_geo" (softening length 3G/f) or "exact" (dissipates G)
-    std::string insertion = "all";      ///< "all" edges from the start, "on_demand", or "none": see damage
-    double threshold = 0.7;             ///< of its strength, where an edge gets its element on demand [-]
-    std::string compliance = "kept";    ///< of the elements: "kept", or "compensated" by stiffer triangles
-    double penalty = 0.0;               ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
+    std::string preset = "accurate";        ///< defaults of the next three: "accurate" as here, or "y_geo"
+    std::string law = "benzeggagh_kenane";  ///< a registered law; y_geo: "evans_marathe"
+    std::string calibration = "exact";      ///< "exact" (dissipates G) or "y_geo" (softening length 3G/f)
+    std::string insertion = "on_demand";  ///< "on_demand", "all" edges from the start, or "none": see damage
+    double threshold = 0.7;               ///< of its strength, where an edge gets its element on demand [-]
+    std::string compliance = "kept";      ///< of the elements: "kept", or "compensated" by stiffer triangles
+    double penalty = 0.0;                 ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
   } cohesive;
 
   /// Smeared damage, where cohesive.insertion is "none".
@@ -140,11 +141,11 @@ struct Case {
     double rate = 0.0;  ///< injection rate per metre of thickness [m2/s]
   };
   struct Fluid {
-    double bulk_modulus = 2.2e9;                ///< [Pa]
-    double density = 1000.0;                    ///< at initial pressure [kg/m3]
-    double initial_pressure = 0.0;              ///< [Pa]
-    std::string wets = "broken";                ///< which cohesive elements the fluid enters: "broken" or "damaged"
-    double viscosity = 0.0;                     ///< in the quasi-static regime [Pa s]
+    double bulk_modulus = 2.2e9;    ///< [Pa]
+    double density = 1000.0;        ///< at initial pressure [kg/m3]
+    double initial_pressure = 0.0;  ///< [Pa]
+    std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken" or "damaged"
+    double viscosity = 0.0;         ///< in the quasi-static regime [Pa s]
     std::optional<double> cavitation_pressure;  ///< [Pa]
     std::string leak_off = "none";              ///< "none", "carter" or "diffusion"
     double leak_off_coefficient = 0.0;          ///< Carter's [m/s^0.5]

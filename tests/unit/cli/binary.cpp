@@ -37,6 +37,7 @@ friction_angle = "38 deg"
 fracture_energy_mode1 = "1 J/m2"
 fracture_energy_mode2 = "80 J/m2"
 [cohesive]
+preset = "y_geo"
 calibration = "y_geo"
 penalty = "120 GPa"
 [stress]

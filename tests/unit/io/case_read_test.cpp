@@ -62,9 +62,20 @@ TEST(CaseRead, ConvertsUnits) {
   EXPECT_EQ(scene.seismic.epoch, "2015-06-01T00:00:00Z");
 }
 
+TEST(CaseRead, APresetIsForWhatIsNotGiven) {
+  const Case y_geo = good({"cohesive.preset=y_geo"});
+  EXPECT_EQ(y_geo.cohesive.law, "evans_marathe");
+  EXPECT_EQ(y_geo.cohesive.calibration, "y_geo");
+  EXPECT_EQ(y_geo.cohesive.insertion, "all");
+  const Case exact = good({"cohesive.preset=y_geo", "cohesive.calibration=exact"});
+  EXPECT_EQ(exact.cohesive.law, "evans_marathe");
+  EXPECT_EQ(exact.cohesive.calibration, "exact");
+}
+
 TEST(CaseRead, FillsDefaultsThatFollowFromOtherKeys) {
   const Case scene = good();
-  EXPECT_EQ(scene.cohesive.law, "evans_marathe");
+  EXPECT_EQ(scene.cohesive.law, "benzeggagh_kenane");
+  EXPECT_EQ(scene.cohesive.insertion, "on_demand");
   EXPECT_EQ(scene.cohesive.calibration, "exact");
   EXPECT_EQ(scene.cohesive.penalty, 20.0 * 35e9);
   EXPECT_EQ(scene.contact.normal_penalty, scene.cohesive.penalty);

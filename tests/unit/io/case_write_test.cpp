@@ -104,7 +104,7 @@ TEST(CaseKeys, HaveUnitsDefaultsAndMeanings) {
   EXPECT_EQ(find("fluid.pump", "rate").unit, "m2/s");
   EXPECT_EQ(find("fluid.pump", "from").default_value, "0.0");
   EXPECT_EQ(find("run", "time_step").default_value, "\"auto\"");
-  EXPECT_EQ(find("cohesive", "law").default_value, "\"evans_marathe\"");
+  EXPECT_EQ(find("cohesive", "law").default_value, "\"benzeggagh_kenane\"");
   for (const CaseKey& key : keys) EXPECT_FALSE(key.meaning.empty()) << key.key;
 }
 
