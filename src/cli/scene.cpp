@@ -82,6 +82,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.cohesive.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
   s.cohesive.penalty = scene.cohesive.penalty;
   s.cohesive.tangential_penalty = scene.contact.tangential_penalty;
+  s.cohesive.mixed_mode_exponent = scene.cohesive.mixed_mode_exponent;
   s.cohesive.calibration = scene.cohesive.calibration == "y_geo" ? Calibration::y_geo : Calibration::exact;
   if (scene.cohesive.compliance == "compensated" && s.mesh) {
     const double shape = measure_mesh(*s.mesh).sum_length2_over_area;

@@ -85,6 +85,36 @@ TEST_P(EveryLaw, DissipatesModeTwoEnergyAboveFrictionUnderCompression) {
   EXPECT_NEAR(above, 80.0, 8e-2);
 }
 
+TEST(BenzeggaghKenane, MixedModeEnergyRisesByTheExponent) {
+  const Check check("B3 mixed mode, benzeggagh_kenane: energy of five rays");
+  const auto law = find_law("benzeggagh_kenane");
+  double worst = 0.0;
+  for (const double exponent : {2.0, 4.0}) {
+    for (int degrees = 0; degrees <= 60; degrees += 15) {
+      auto m = granite(Calibration::exact);
+      m.mixed_mode_exponent = exponent;
+      const double across = std::cos(degrees * std::numbers::pi / 180.0),
+                   along = std::sqrt(1.0 - across * across);
+      const double energy = m.fracture_energy_mode1 + (m.fracture_energy_mode2 - m.fracture_energy_mode1) *
+                                                          std::pow(along * along, exponent);
+      CohesivePoint p;
+      double work = 0.0;
+      for (int i = 1; p.damage < 1.0; ++i) {
+        const CohesivePoint old = p;
+        law->move(m, 3e-3, 1e-10 * i * across, 1e-10 * i * along, p);
+        work += 0.5 * (p.normal + old.normal) * (p.opening - old.opening) +
+                0.5 * (p.shear + old.shear) * (p.slip - old.slip);
+        ASSERT_LT(i, 10000000);
+      }
+      std::printf("exponent %g, %2d degrees: %.4f J/m2, by the formula %.4f\n", exponent, degrees, work,
+                  energy);
+      worst = std::max(worst, std::abs(work / energy - 1.0));
+    }
+  }
+  check.result(worst);
+  EXPECT_LT(worst, 1e-3);
+}
+
 TEST(EvansMarathe, YGeoCalibrationDissipatesWhatYGeoDoes) {
   const auto law = find_law("evans_marathe");
   const Work w = separate(*law, granite(Calibration::y_geo), 3e-3, 0.0, 0.0, 1e-5, 200000);
