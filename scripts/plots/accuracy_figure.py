@@ -9,7 +9,8 @@ import numpy as np
 from look import FAINT, INK, WATER
 
 PANELS = [  # (title, {question: (quantity, filled)}, label of the error)
-    ("a  Stiffness of the rock and speed of P waves", {"hole": ("shear_modulus_Pa", True), "pulse": ("p_wave_speed_m_s", False)},
+    ("a  Stiffness of the rock and speed of P waves",
+     {"hole": ("shear_modulus_Pa", True), "pulse": ("p_wave_speed_m_s", False)},
      "filled: shear modulus · hollow: P-wave speed"),
     ("b  Breakdown pressure of the wellbore at 65 l/s", {"breakdown": ("breakdown_pressure_Pa", True)},
      "quasi-static cohesive theory (12.45 MPa; paper preset: 12.90)"),
@@ -22,6 +23,7 @@ PANELS = [  # (title, {question: (quantity, filled)}, label of the error)
 COLORS = ["#111111", "#c9a227", "#e08e00", "#d7263d", "#8e1b3a", "#7b4fa3", "#1f6fb2", "#2a9d8f", "#7fb2d9", "#5c6f82",
           "#9aa5b1"]
 MARKERS = ["s", "v", "v", "v", "v", "P", "o", "D", "<", ">", "X"]
+STUDY = "default, linear"  # at several rates: in the figure of its own
 LEAST = 1e-3  # smaller errors are drawn here
 
 
@@ -33,7 +35,7 @@ def points_of(rows, question, quantity):
     """{(method, size): (processor time, errors of the seeds)} at the case's own rate."""
     found = collections.defaultdict(list)
     for row in rows:
-        if row["question"] == question and row["quantity"] == quantity and number(row["rate_l_s"] or 65) == 65:
+        if (row["question"], row["quantity"]) == (question, quantity) and row["method"] != STUDY:
             found[row["method"], float(row["size_mm"])].append((number(row["cpu_s"]), number(row["error"])))
     return {key: (np.mean([c for c, _ in v]), np.array([e for _, e in v])) for key, v in found.items()}
 
@@ -62,7 +64,8 @@ def draw_panel(axes, rows, panel, style):
             if len(size) > 1:
                 axes.plot([cpu, cpu], [100 * size.min(), 100 * size.max()], color=color, lw=1, zorder=3)
         for method in style:
-            line = sorted((cpu, 100 * max(np.mean(np.abs(e)), LEAST)) for (m, _), (cpu, e) in points.items() if m == method)
+            line = sorted((cpu, 100 * max(np.mean(np.abs(e)), LEAST))
+                          for (m, _), (cpu, e) in points.items() if m == method)
             if len(line) > 1:
                 axes.plot(*zip(*line), color=style[method][0], lw=0.7, alpha=0.5, zorder=2)
         if filled and points:
@@ -72,6 +75,9 @@ def draw_panel(axes, rows, panel, style):
             for k in keys:
                 axes.annotate(f"{k[1]:g} mm", (points[k][0], 100 * max(np.mean(np.abs(points[k][1])), LEAST)),
                               textcoords="offset points", xytext=(5, -9), fontsize=7, color=INK)
+    if not any(points_of(rows, question, quantity) for question, (quantity, _) in questions.items()):
+        look.say_empty(axes, "not run yet")
+        return
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -80,7 +86,7 @@ def draw_panel(axes, rows, panel, style):
 
 
 def draw_chart(rows, path):
-    methods = list(dict.fromkeys(row["method"] for row in rows))
+    methods = [m for m in dict.fromkeys(row["method"] for row in rows) if m != STUDY]
     style = {m: (COLORS[i % len(COLORS)], MARKERS[i % len(MARKERS)]) for i, m in enumerate(methods)}
     figure, axes = plt.subplots(2, 2, figsize=(11, 9.4))
     for one, panel in zip(axes.flat, PANELS):
@@ -89,8 +95,8 @@ def draw_chart(rows, path):
     handles.append(plt.Line2D([], [], color=FAINT, lw=5, alpha=0.35, label="Pareto front of the filled marks"))
     figure.legend(handles=handles, loc="lower center", ncol=4, bbox_to_anchor=(0.5, 0.0))
     figure.text(0.02, 0.985, "Error against processor time", fontsize=12.5, weight="bold", va="top")
-    figure.text(0.02, 0.958, "one core; lines join the element sizes 12, 6, 3 and 1.5 mm of a method; bars are the spread "
-                "over mesh seeds", fontsize=9, color="#5b6873", va="top")
+    figure.text(0.02, 0.958, "one core; lines join the element sizes 12, 6, 3 and 1.5 mm of a method; bars are the "
+                "spread over mesh seeds", fontsize=9, color="#5b6873", va="top")
     figure.subplots_adjust(left=0.07, right=0.98, top=0.9, bottom=0.17, hspace=0.42, wspace=0.2)
     look.save(figure, path)
 
@@ -100,7 +106,7 @@ def draw_breakdown(rows, path):
     theory = 12.45
     found = collections.defaultdict(list)
     for row in rows:
-        if row["quantity"] == "breakdown_pressure_Pa" and row["method"] == "on demand":
+        if row["quantity"] == "breakdown_pressure_Pa" and row["method"] == STUDY:
             found[row["question"], number(row["rate_l_s"]), float(row["size_mm"])].append(float(row["value"]) / 1e6)
     figure, (left, right) = plt.subplots(1, 2, figsize=(10.5, 4.4), sharey=True)
     look.name_axes(left, "Pump rate, elements of 3 mm", "pump rate [l/s]", "breakdown pressure [MPa]")

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The granite wellbore cases in full (3 mm) by the paper's method, by the program itself, from what it writes: breakdown
-// beside the quasi-static cohesive reference with the penalty's compliance (validation.md D4).
+// The granite wellbore cases in full (3 mm) by the paper's method, by the program itself, from what it
+// writes: breakdown beside the quasi-static cohesive reference with the penalty's compliance (validation.md
+// D4).
 #include <gtest/gtest.h>
 
 #include <algorithm>

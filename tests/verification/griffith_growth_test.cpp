@@ -15,18 +15,18 @@ namespace {
 
 using granite::at;
 
-constexpr double notch = 0.1, path = 0.3;  // half-lengths [m]
-constexpr double size = 6e-3;              // [m]
-constexpr double fluid_modulus = 2e6;      // [Pa]
-constexpr double rate = 2e-3;              // [m2/s]
-constexpr double end = 3e-3;               // [s]
+constexpr double notch = 0.1, path = 0.25;  // half-lengths [m]
+constexpr double size = 4e-3;               // [m]
+constexpr double fluid_modulus = 2e6;       // [Pa]
+constexpr double rate = 2e-3;               // [m2/s]
+constexpr double end = 2.4e-3;              // [s]
 
 Scene make_scene() {
   MeshRecipe recipe;
   recipe.width = recipe.height = 8.0;
   recipe.size_fine = size;
-  recipe.fine_radius = 0.28;
-  recipe.size_coarse = 0.4;
+  recipe.fine_radius = 0.23;
+  recipe.size_coarse = 0.5;
   recipe.joints = {
       {{-notch, 0.0}, {notch, 0.0}, 0}, {{notch, 0.0}, {path, 0.0}, 1}, {{-path, 0.0}, {-notch, 0.0}, 1}};
   recipe.joint_sets = {"crack", "path"};
@@ -94,9 +94,14 @@ TEST(GriffithGrowth, PumpedCrackOnAStraightPath) {
   Simulation simulation(make_scene());
   double pressure = 0.0, length = 0.0, width = 0.0, residual = 0.0;
   int count = 0;
-  double next = 0.5 * end, half = notch;
+  double next = 0.5 * end, half = notch, half_before = 0.0, energy_before = 0.0;
   while (simulation.state().time < end) {
-    residual = std::max(residual, simulation.step_and_account(0.8 * simulation.stable_limit()).residual);
+    const double dt = 0.8 * simulation.stable_limit();
+    if (simulation.state().step % 50 == 0) {
+      residual = std::max(residual, simulation.step_and_account(dt).residual);
+    } else {
+      simulation.step(dt);
+    }
     if (simulation.state().time < next) continue;
     next += 0.01 * end;
     const double injected = rate * simulation.state().time;
@@ -105,6 +110,7 @@ TEST(GriffithGrowth, PumpedCrackOnAStraightPath) {
     pressure += simulation.wellbore_pressure() / exact.pressure - 1.0;
     length += half / exact.half_length - 1.0;
     width += opening_in_the_middle(simulation) / exact.width - 1.0;
+    if (count == 0) half_before = half, energy_before = simulation.state().dissipation.fracture;
     if (count++ % 10 == 0)
       std::printf("%.2f ms: p %.4f MPa (%+.1f %%), half-length %.1f mm (%+.1f %%)\n",
                   1e3 * simulation.state().time, 1e-6 * simulation.wellbore_pressure(),
@@ -112,13 +118,14 @@ TEST(GriffithGrowth, PumpedCrackOnAStraightPath) {
                   100 * (half / exact.half_length - 1.0));
   }
   pressure /= count, length /= count, width /= count;
-  const double energy = simulation.state().dissipation.fracture / (2.0 * (half - notch)) /
-                            granite::cohesive().fracture_energy_mode1 -
+  // Between two lengths, so that the cohesive zone ahead of both drops out.
+  const double energy = (simulation.state().dissipation.fracture - energy_before) /
+                            (2.0 * (half - half_before)) / granite::cohesive().fracture_energy_mode1 -
                         1.0;
   std::printf(
-      "means of the second half: pressure %+.1f %%, half-length %+.1f %%, opening %+.1f %%; energy per "
-      "advance %+.1f "
-      "%%; residual %.0e\n",
+      "means: pressure %+.1f %%, half-length %+.1f %%, opening %+.1f %%; energy per advance %+.1f %%; "
+      "residual "
+      "%.0e\n",
       100 * pressure, 100 * length, 100 * width, 100 * energy, residual);
   pressure_check.result(pressure);
   length_check.result(length);
@@ -127,7 +134,7 @@ TEST(GriffithGrowth, PumpedCrackOnAStraightPath) {
   EXPECT_LT(std::abs(pressure), 0.03);
   EXPECT_LT(std::abs(length), 0.03);
   EXPECT_LT(std::abs(width), 0.03);
-  EXPECT_LT(std::abs(energy), 0.1) << "the last cohesive zone is not through yet";
+  EXPECT_LT(std::abs(energy), 0.05);
   EXPECT_LT(residual, 1e-3);
 }
 

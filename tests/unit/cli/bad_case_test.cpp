@@ -47,7 +47,7 @@ TEST_F(BadCase, PumpStagesOverlap) {
 }
 
 TEST_F(BadCase, ZeroSteps) {
-  refused(with("end_time = \"0.9 ms\"", "end_time = \"0 s\""), 2, "bad.toml:34:");
+  refused(with("end_time = \"0.9 ms\"", "end_time = \"0 s\""), 2, "bad.toml:35:");
   refused(with("end_time = \"0.9 ms\"", "end_time = \"0.9 ms\"\ntime_step = \"1 s\""), 2, "time_step");
 }
 
