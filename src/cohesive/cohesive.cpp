@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crackle/cohesive/elastic_element.hpp"
 #include "crackle/core/parallel.hpp"
 
 namespace crackle {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-// An element gets a history a little before it can yield, so that its first damage is booked whole.
-constexpr double early = 0.95;
 
 inline EndSeparation separate(const Vec2* u, const std::array<Index, 4>& n, Vec2 direction,
                               const std::array<double, 4>& offset) {
@@ -37,7 +35,8 @@ inline EndForces end_forces(Vec2 t, double sixth, double n0, double s0, double n
   return {{p0 * t.y + q0 * t.x, -p0 * t.x + q0 * t.y}, {p1 * t.y + q1 * t.x, -p1 * t.x + q1 * t.y}};
 }
 
-// The fast loop works on chunks that are first laid out component by component, so that it vectorises.
+// Intact elements are evaluated in chunks that are first laid out component by component, so that it
+// vectorises.
 constexpr int chunk = 64;
 struct Chunk {
   double ax0[chunk], ay0[chunk], ax1[chunk], ay1[chunk], bx0[chunk], by0[chunk], bx1[chunk], by1[chunk];
@@ -49,79 +48,55 @@ struct Chunk {
 };
 
 inline void evaluate_chunk(Chunk& c, double curvature, int count) {
-  const double limit = early * (1.0 + curvature);
-  const double quarter = curvature / 4.0;
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
-    const double inverse = c.inverse_length[i];
-    const double length = (c.dx[i] * c.dx[i] + c.dy[i] * c.dy[i]) * inverse;
-    // Direction of the middle line, made a unit vector by two Newton steps from the reference length:
-    // exact to round-off for the strains of intact rock.
-    const double ex = c.dx[i] + 0.5 * ((c.ax1[i] + c.bx1[i]) - (c.ax0[i] + c.bx0[i]));
-    const double ey = c.dy[i] + 0.5 * ((c.ay1[i] + c.by1[i]) - (c.ay0[i] + c.by0[i]));
-    const double half = 0.5 * (ex * ex + ey * ey);
-    double r = inverse * (1.5 - half * inverse * inverse);
-    r = r * (1.5 - half * r * r);
-    const double tx = ex * r, ty = ey * r;
-    const double gx0 = c.bx0[i] - c.ax0[i], gy0 = c.by0[i] - c.ay0[i];
-    const double gx1 = c.bx1[i] - c.ax1[i], gy1 = c.by1[i] - c.ay1[i];
-    const double k = c.penalty[i] * inverse;
-    const double quarter_tension = quarter / c.tensile_strength[i];
-    // Elastic tractions at both ends and the middle, as elastic_traction() has them.
-    const double tn0 = k * (gx0 * ty - gy0 * tx + c.o0[i]), ts0 = k * (gx0 * tx + gy0 * ty + c.s0[i]);
-    const double tn1 = k * (gx1 * ty - gy1 * tx + c.o1[i]), ts1 = k * (gx1 * tx + gy1 * ty + c.s1[i]);
-    const double tnm = 0.5 * (tn0 + tn1), tsm = 0.5 * (ts0 + ts1);
-    const double pull0 = tn0 > 0.0 ? tn0 : 0.0, pull1 = tn1 > 0.0 ? tn1 : 0.0, pullm = tnm > 0.0 ? tnm : 0.0;
-    const double n0 = tn0 - quarter_tension * pull0 * pull0;
-    const double n1 = tn1 - quarter_tension * pull1 * pull1;
-    const double nm = tnm - quarter_tension * pullm * pullm;
-    const double strength0 = c.cohesion[i] - c.tan_friction[i] * (n0 < 0.0 ? n0 : 0.0);
-    const double strength1 = c.cohesion[i] - c.tan_friction[i] * (n1 < 0.0 ? n1 : 0.0);
-    const double strengthm = c.cohesion[i] - c.tan_friction[i] * (nm < 0.0 ? nm : 0.0);
-    const double push0 = std::abs(ts0), push1 = std::abs(ts1);
-    const double s0 = ts0 - quarter * ts0 * push0 / strength0;
-    const double s1 = ts1 - quarter * ts1 * push1 / strength1;
-    const double sm = tsm - quarter * tsm * std::abs(tsm) / strengthm;
-    // Near its strength already? The middle lies between the ends.
-    const double near_tension = (pull0 > pull1 ? pull0 : pull1) - limit * c.tensile_strength[i];
-    const double near0 = push0 - limit * strength0, near1 = push1 - limit * strength1;
-    const double near_shear = near0 > near1 ? near0 : near1;
-    c.beyond[i] = near_tension > near_shear ? near_tension : near_shear;
-    const double sixth = length * (1.0 / 6.0);
-    const double p0 = sixth * (n0 + 2.0 * nm), q0 = sixth * (s0 + 2.0 * sm);
-    const double p1 = sixth * (n1 + 2.0 * nm), q1 = sixth * (s1 + 2.0 * sm);
-    c.fx0[i] = p0 * ty + q0 * tx;
-    c.fy0[i] = q0 * ty - p0 * tx;
-    c.fx1[i] = p1 * ty + q1 * tx;
-    c.fy1[i] = q1 * ty - p1 * tx;
+    const ElasticElement<double> e{c.bx0[i] - c.ax0[i],
+                                   c.by0[i] - c.ay0[i],
+                                   c.bx1[i] - c.ax1[i],
+                                   c.by1[i] - c.ay1[i],
+                                   c.dx[i] + 0.5 * ((c.ax1[i] + c.bx1[i]) - (c.ax0[i] + c.bx0[i])),
+                                   c.dy[i] + 0.5 * ((c.ay1[i] + c.by1[i]) - (c.ay0[i] + c.by0[i])),
+                                   (c.dx[i] * c.dx[i] + c.dy[i] * c.dy[i]) * c.inverse_length[i],
+                                   c.inverse_length[i],
+                                   c.o0[i],
+                                   c.s0[i],
+                                   c.o1[i],
+                                   c.s1[i]};
+    const auto f = elastic_forces<double, double>(
+        e, {c.penalty[i], c.tensile_strength[i], c.cohesion[i], c.tan_friction[i], curvature});
+    c.fx0[i] = f.x0;
+    c.fy0[i] = f.y0;
+    c.fx1[i] = f.x1;
+    c.fy1[i] = f.y1;
+    c.beyond[i] = f.beyond;
   }
 }
 
-CRACKLE_KERNEL void elastic_elements(const Vec2* u, const std::array<Index, 4>* nodes, const Vec2* direction,
-                                     const double* inverse_length, const std::array<double, 4>* offset,
-                                     const std::uint16_t* material, const CohesiveMaterial* materials,
-                                     double curvature, Index begin, Index end, EndForces* force,
-                                     std::uint8_t* beyond) {
+// Writes the forces of the elements listed, and collects those near their strength.
+CRACKLE_KERNEL void elastic_elements(const Vec2* u, CohesiveElements& elements,
+                                     const CohesiveMaterial* materials, double curvature,
+                                     std::span<const Index> list, std::vector<Index>& near) {
   Chunk c;
-  for (Index first = begin; first < end; first += chunk) {
-    const int count = std::min<Index>(chunk, end - first);
+  for (std::size_t first = 0; first < list.size(); first += chunk) {
+    const int count = static_cast<int>(std::min<std::size_t>(chunk, list.size() - first));
     for (int i = 0; i < count; ++i) {
-      const std::array<Index, 4>& n = nodes[first + i];
+      const std::size_t e = at(list[first + i]);
+      const std::array<Index, 4>& n = elements.nodes[e];
       const Vec2 a0 = u[n[0]], a1 = u[n[1]], b0 = u[n[2]], b1 = u[n[3]];
       c.ax0[i] = a0.x, c.ay0[i] = a0.y, c.ax1[i] = a1.x, c.ay1[i] = a1.y;
       c.bx0[i] = b0.x, c.by0[i] = b0.y, c.bx1[i] = b1.x, c.by1[i] = b1.y;
-      c.dx[i] = direction[first + i].x, c.dy[i] = direction[first + i].y;
-      c.inverse_length[i] = inverse_length[first + i];
-      const std::array<double, 4>& o = offset[first + i];
+      c.dx[i] = elements.direction[e].x, c.dy[i] = elements.direction[e].y;
+      c.inverse_length[i] = elements.inverse_length[e];
+      const std::array<double, 4>& o = elements.offset[e];
       c.o0[i] = o[0], c.s0[i] = o[1], c.o1[i] = o[2], c.s1[i] = o[3];
-      const CohesiveMaterial& m = materials[material[first + i]];
+      const CohesiveMaterial& m = materials[elements.material[e]];
       c.penalty[i] = m.penalty, c.tensile_strength[i] = m.tensile_strength;
       c.cohesion[i] = m.cohesion, c.tan_friction[i] = m.tan_friction;
     }
     evaluate_chunk(c, curvature, count);
     for (int i = 0; i < count; ++i) {
-      force[first + i] = {{c.fx0[i], c.fy0[i]}, {c.fx1[i], c.fy1[i]}};
-      beyond[first + i] = c.beyond[i] > 0.0;
+      elements.force[at(list[first + i])] = {{c.fx0[i], c.fy0[i]}, {c.fx1[i], c.fy1[i]}};
+      if (c.beyond[i] > 0.0) near.push_back(list[first + i]);
     }
   }
 }
@@ -308,27 +283,33 @@ void Cohesive::load_springs(State& state, Index element) const {
 }
 
 void Cohesive::add_tractions(State& state) {
+  const CohesiveElements& c = state.cohesive;
+  std::vector<std::vector<Index>> intact(at(block_count(c.initial)));
+  for_each_block(c.initial, [&](Index begin, Index end, Index block) {
+    for (Index i = begin; i < end; ++i) {
+      if (c.history_of[at(i)] < 0) intact[at(block)].push_back(i);
+    }
+  });
+  add_tractions(state, intact);
+}
+
+void Cohesive::start_histories(State& state, std::span<const Index> elements) {
+  for (const Index element : elements) start_history(state, element);
+  started_.insert(started_.end(), elements.begin(), elements.end());
+}
+
+void Cohesive::add_tractions(State& state, std::span<const std::vector<Index>> intact) {
   CohesiveElements& c = state.cohesive;
   newly_broken_.clear();
+  started_.clear();
   changed_ = false;
   if (c.count() == 0) return;
-  beyond_.resize(at(c.initial));
-  std::vector<Index> first_beyond(at(block_count(c.initial)), 0);
-  for_each_block(c.initial, [&](Index begin, Index end, Index block) {
-    elastic_elements(state.displacement.data(), c.nodes.data(), c.direction.data(), c.inverse_length.data(),
-                     c.offset.data(), c.material.data(), materials_.data(), law_->curvature(), begin, end,
-                     c.force.data(), beyond_.data());
-    Index any = 0;
-    for (Index i = begin; i < end; ++i) any += beyond_[at(i)] && c.history_of[at(i)] < 0;
-    first_beyond[at(block)] = any;
+  std::vector<std::vector<Index>> near(intact.size());
+  for_each_block(static_cast<Index>(intact.size()) * block_size, [&](Index, Index, Index part) {
+    elastic_elements(state.displacement.data(), c, materials_.data(), law_->curvature(), intact[at(part)],
+                     near[at(part)]);
   });
-  // New histories, in element order.
-  for (Index block = 0; block < block_count(c.initial); ++block) {
-    if (first_beyond[at(block)] == 0) continue;
-    for (Index i = block * block_size; i < std::min(c.initial, (block + 1) * block_size); ++i) {
-      if (beyond_[at(i)] && c.history_of[at(i)] < 0) start_history(state, i);
-    }
-  }
+  for (const auto& elements : near) start_histories(state, elements);
   // Elements with a history, one by one.
   const Index active = static_cast<Index>(c.histories.size());
   std::vector<Dissipation> partial(at(block_count(active)));
@@ -336,9 +317,10 @@ void Cohesive::add_tractions(State& state) {
   for_each_block(active, [&](Index begin, Index end, Index block) {
     for (Index j = begin; j < end; ++j) {
       CohesiveHistory& h = c.histories[at(j)];
-      const bool intact = c.status[at(h.element)] == CohesiveStatus::active;
+      const bool was_intact = c.status[at(h.element)] == CohesiveStatus::active;
       evaluate_active(state, h, partial[at(block)]);
-      if (intact && c.status[at(h.element)] == CohesiveStatus::broken) broken[at(block)].push_back(h.element);
+      if (was_intact && c.status[at(h.element)] == CohesiveStatus::broken)
+        broken[at(block)].push_back(h.element);
     }
   });
   for (std::size_t b = 0; b < partial.size(); ++b) {

@@ -24,91 +24,61 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-struct Gradient {  // of a vector field over a triangle: g_ij = ∂a_i/∂X_j
-  double xx, xy, yx, yy;
-};
+using triangle::Gradient;
 
-inline Gradient gradient(const std::array<double, 4>& b, Vec2 a0, Vec2 a1, Vec2 a2) {
-  const Vec2 d1 = a1 - a0;
-  const Vec2 d2 = a2 - a0;
-  return {d1.x * b[0] + d2.x * b[2], d1.x * b[1] + d2.x * b[3], d1.y * b[0] + d2.y * b[2],
-          d1.y * b[1] + d2.y * b[3]};
+inline Gradient<double> gradient(const std::array<double, 4>& b, Vec2 a0, Vec2 a1, Vec2 a2) {
+  return triangle::gradient<double>({b[0], b[1], b[2], b[3]}, a1.x - a0.x, a1.y - a0.y, a2.x - a0.x,
+                                    a2.y - a0.y);
 }
 
-inline Sym2 green_strain(const Gradient& h) {
-  return {h.xx + 0.5 * (h.xx * h.xx + h.yx * h.yx), h.yy + 0.5 * (h.xy * h.xy + h.yy * h.yy),
-          0.5 * (h.xy + h.yx + h.xx * h.xy + h.yx * h.yy)};
+inline Sym2 green_strain(const Gradient<double>& h) {
+  const auto e = triangle::green_strain(h);
+  return {e.xx, e.yy, e.xy};
 }
 
-// Corner forces of one run of triangles; the viscous part and the screen are compiled out where there
-// is none.
-template <bool viscous, bool screened>
-[[gnu::always_inline]] inline double forces_of(
-    const Index* __restrict nodes, const Vec2* __restrict u, const Vec2* __restrict v,
-    const std::array<double, 4>* __restrict inverse_shape, const double* __restrict area,
-    const Sym2* __restrict in_situ, const double* __restrict viscosity, Sym2* __restrict strain_rate,
-    const PlaneStiffness& c, Index count, Vec2* __restrict forces, const StressScreen& screen,
-    std::uint8_t* __restrict stressed) {
+// Corner forces of one run of triangles; the viscous part is compiled out where there is none.
+template <bool viscous>
+[[gnu::always_inline]] inline double forces_of(const Index* __restrict nodes, const Vec2* __restrict u,
+                                               const Vec2* __restrict v,
+                                               const std::array<double, 4>* __restrict inverse_shape,
+                                               const double* __restrict area, const Sym2* __restrict in_situ,
+                                               const double* __restrict viscosity,
+                                               Sym2* __restrict strain_rate, const PlaneStiffness& c,
+                                               Index count, Vec2* __restrict forces) {
   double power = 0.0;
-  const double secant = std::sqrt(1.0 + screen.tan_friction * screen.tan_friction);
 #pragma omp simd reduction(+ : power)
   for (Index t = 0; t < count; ++t) {
     const Index n0 = nodes[3 * t], n1 = nodes[3 * t + 1], n2 = nodes[3 * t + 2];
     const std::array<double, 4>& b = inverse_shape[t];
-    const Gradient h = gradient(b, u[n0], u[n1], u[n2]);
-    const Sym2 e = green_strain(h);
-    Sym2 s = c.stress(e) + in_situ[t];
-    if constexpr (screened) {
-      // Mohr's circle; at these strains the second Piola-Kirchhoff stress is the stress.
-      const double mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
-      const double radius = std::sqrt(half * half + s.xy * s.xy);
-      const bool pulled = mean + radius > screen.tension;
-      const bool sheared = radius * secant + mean * screen.tan_friction > screen.shear;
-      stressed[t] = static_cast<std::uint8_t>(pulled | sheared);
-    }
-    const double fxx = 1.0 + h.xx, fyy = 1.0 + h.yy;
+    const auto h = gradient(b, u[n0], u[n1], u[n2]);
+    auto s = triangle::stress(c, triangle::green_strain(h));
+    s = {s.xx + in_situ[t].xx, s.yy + in_situ[t].yy, s.xy + in_situ[t].xy};
     if constexpr (viscous) {
-      const Gradient g = gradient(b, v[n0], v[n1], v[n2]);
-      const Sym2 rate{fxx * g.xx + h.yx * g.yx, h.xy * g.xy + fyy * g.yy,
-                      0.5 * (fxx * g.xy + h.yx * g.yy + h.xy * g.xx + fyy * g.yx)};
-      const Sym2 mean = 0.5 * (rate + strain_rate[t]);
-      power += area[t] * viscosity[t] * (rate.xx * mean.xx + rate.yy * mean.yy + 2.0 * rate.xy * mean.xy);
-      strain_rate[t] = rate;
-      s = s + viscosity[t] * rate;
+      const auto rate = triangle::strain_rate(h, gradient(b, v[n0], v[n1], v[n2]));
+      power += triangle::viscous_power(area[t], viscosity[t], rate,
+                                       {strain_rate[t].xx, strain_rate[t].yy, strain_rate[t].xy});
+      strain_rate[t] = {rate.xx, rate.yy, rate.xy};
+      s = {s.xx + viscosity[t] * rate.xx, s.yy + viscosity[t] * rate.yy, s.xy + viscosity[t] * rate.xy};
     }
-    // P = F S, f_i = −A P ∇N_i
-    const double pxx = fxx * s.xx + h.xy * s.xy, pxy = fxx * s.xy + h.xy * s.yy;
-    const double pyx = h.yx * s.xx + fyy * s.xy, pyy = h.yx * s.xy + fyy * s.yy;
-    const double a = area[t];
-    const Vec2 f1{-a * (pxx * b[0] + pxy * b[1]), -a * (pyx * b[0] + pyy * b[1])};
-    const Vec2 f2{-a * (pxx * b[2] + pxy * b[3]), -a * (pyx * b[2] + pyy * b[3])};
-    forces[3 * t] = Vec2{-f1.x - f2.x, -f1.y - f2.y};
-    forces[3 * t + 1] = f1;
-    forces[3 * t + 2] = f2;
+    const auto f = triangle::forces<double>(h, s, {b[0], b[1], b[2], b[3]}, area[t]);
+    forces[3 * t] = Vec2{-f.x1 - f.x2, -f.y1 - f.y2};
+    forces[3 * t + 1] = Vec2{f.x1, f.y1};
+    forces[3 * t + 2] = Vec2{f.x2, f.y2};
   }
   return power;
 }
 
-template <bool viscous, bool screened>
-[[gnu::always_inline]] inline double forces_of(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces,
-                                               const StressScreen& screen, std::uint8_t* stressed) {
-  return forces_of<viscous, screened>(r.nodes, r.u, r.v, r.inverse_shape, r.area, r.in_situ, r.viscosity,
-                                      r.strain_rate, c, r.count, forces, screen, stressed);
+template <bool viscous>
+[[gnu::always_inline]] inline double forces_of(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
+  return forces_of<viscous>(r.nodes, r.u, r.v, r.inverse_shape, r.area, r.in_situ, r.viscosity, r.strain_rate,
+                            c, r.count, forces);
 }
 
 CRACKLE_KERNEL double elastic_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
-  return forces_of<false, false>(r, c, forces, {}, nullptr);
+  return forces_of<false>(r, c, forces);
 }
 CRACKLE_KERNEL double viscous_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
-  return forces_of<true, false>(r, c, forces, {}, nullptr);
-}
-CRACKLE_KERNEL double screened_elastic_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces,
-                                              const StressScreen& screen, std::uint8_t* stressed) {
-  return forces_of<false, true>(r, c, forces, screen, stressed);
-}
-CRACKLE_KERNEL double screened_viscous_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces,
-                                              const StressScreen& screen, std::uint8_t* stressed) {
-  return forces_of<true, true>(r, c, forces, screen, stressed);
+  return forces_of<true>(r, c, forces);
 }
 
 }  // namespace
@@ -161,15 +131,6 @@ double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) c
   const TriangleRun run = run_of(state, begin, end);
   const double power =
       viscous_ ? viscous_forces(run, stiffness_, forces) : elastic_forces(run, stiffness_, forces);
-  add_weight(begin, end, forces);
-  return power;
-}
-
-double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces, const StressScreen& screen,
-                           std::uint8_t* stressed) const {
-  const TriangleRun run = run_of(state, begin, end);
-  const double power = viscous_ ? screened_viscous_forces(run, stiffness_, forces, screen, stressed)
-                                : screened_elastic_forces(run, stiffness_, forces, screen, stressed);
   add_weight(begin, end, forces);
   return power;
 }
@@ -234,8 +195,8 @@ double Bulk::strain_energy(const State& state, Index t) const {
 
 Sym2 Bulk::stress(const State& state, Index triangle) const {
   const Index* n = &state.node_of_corner[at(3 * triangle)];
-  const Gradient h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
-                              state.displacement[at(n[1])], state.displacement[at(n[2])]);
+  const Gradient<double> h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
+                                      state.displacement[at(n[1])], state.displacement[at(n[2])]);
   const Sym2 s = stiffness_.stress(green_strain(h)) + in_situ_[at(triangle)];
   // σ = F S Fᵀ / J
   const double fxx = 1.0 + h.xx, fyy = 1.0 + h.yy, fxy = h.xy, fyx = h.yx;
@@ -247,8 +208,8 @@ Sym2 Bulk::stress(const State& state, Index triangle) const {
 
 double Bulk::area_ratio(const State& state, Index triangle) const {
   const Index* n = &state.node_of_corner[at(3 * triangle)];
-  const Gradient h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
-                              state.displacement[at(n[1])], state.displacement[at(n[2])]);
+  const Gradient<double> h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
+                                      state.displacement[at(n[1])], state.displacement[at(n[2])]);
   return (1.0 + h.xx) * (1.0 + h.yy) - h.xy * h.yx;
 }
 

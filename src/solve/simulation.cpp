@@ -38,18 +38,6 @@ inline void add_element_forces(const Index* element_on_side, const EndForces* fo
   }
 }
 
-// v += Δt f/m, x += Δt v
-CRACKLE_KERNEL void move(Vec2* displacement, Vec2* velocity, const double* inverse_mass, const Vec2* force,
-                         double dt, Index count) {
-  for (Index n = 0; n < count; ++n) {
-    const double w = dt * inverse_mass[n];
-    velocity[n].x += w * force[n].x;
-    velocity[n].y += w * force[n].y;
-    displacement[n].x += dt * velocity[n].x;
-    displacement[n].y += dt * velocity[n].y;
-  }
-}
-
 std::vector<CohesiveMaterial> materials_of(const Scene& scene) {
   std::vector<CohesiveMaterial> materials{scene.cohesive};
   materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
@@ -110,9 +98,7 @@ Simulation::Simulation(Scene scene)
       cut_cracks();
     }
   }
-  block_has_elements_.assign(at(block_count(scene_.mesh->triangle_count())), split);
   if (scene_.contact.normal_penalty > 0.0) contact_.emplace(state_, scene_.contact);
-  if (!split) corner_force_.resize(state_.node_of_corner.size());
   if (scene_.fluid) {
     fluid_.emplace(state_, *scene_.fluid, scene_.pump);
     if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
@@ -153,13 +139,9 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
       scale_(memory.scale),
       geostatic_slips_(memory.geostatic_slips) {
   const Index triangles = scene_.mesh->triangle_count();
-  block_has_elements_.assign(at(block_count(triangles)), 0);
-  block_stressed_ = block_has_elements_;
-  for (Index t = 0; t < triangles; ++t) {
-    const auto sides = std::span(state_.element_on_side).subspan(at(3 * t), 3);
-    if (std::ranges::any_of(sides, [](Index code) { return code >= 0; }))
-      block_has_elements_[at(t / block_size)] = 1;
-    if (!stressed_.empty() && stressed_[at(t)]) block_stressed_[at(t / block_size)] = 1;
+  block_stressed_.assign(at(block_count(triangles)), 0);
+  for (Index t = 0; t < triangles && !stressed_.empty(); ++t) {
+    if (stressed_[at(t)]) block_stressed_[at(t / block_size)] = 1;
   }
   if (!stressed_.empty()) set_screen();
   if (scene_.damage.law) begin_damage();
@@ -168,12 +150,12 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     contact_.emplace(state_, scene_.contact);
     contact_->rebuild(state_);
   }
-  if (!scene_.law || scene_.insertion.on_demand) corner_force_.resize(state_.node_of_corner.size());
   if (scene_.fluid) {
     fluid_.emplace(state_, *scene_.fluid, scene_.pump);
     if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
   }
   if (scene_.absorbing_boundary) boundary_.emplace(std::move(memory.boundary));
+  tiles_.emplace(state_, physics());
 }
 
 Sym2 Simulation::stress(Index triangle) const {
@@ -315,6 +297,7 @@ void Simulation::settle() {
     }
     boundary_.emplace(state_, scene_.stiffness, scene_.density, forces);
   }
+  tiles_.emplace(state_, physics());
   if (geostatic_slips_ > 0 || !scene_.cracks.empty() || !scene_.damage.cut.empty()) relax();
   state_.dissipation = {};
   // The residual is not measured against less energy than strains of 3e-7 everywhere hold: while the
@@ -378,7 +361,7 @@ void Simulation::begin_damage() {
   screen_ = damage_->screen();
   const std::size_t triangles = scene_.mesh->triangles.size();
   stressed_.resize(triangles);
-  block_stressed_.resize(block_has_elements_.size());
+  block_stressed_.resize(at(block_count(scene_.mesh->triangle_count())));
   state_.damage.of_triangle.resize(triangles, -1);
   for (const DamagedTriangle& d : state_.damage.triangles) bulk_.drop_viscosity(d.triangle);
 }
@@ -396,14 +379,18 @@ void Simulation::crack_stressed() {
   }
   const std::size_t before = state_.damage.triangles.size();
   damage_->initiate(state_, bulk_, candidates);
-  for (std::size_t i = before; i < state_.damage.triangles.size(); ++i)
-    bulk_.drop_viscosity(state_.damage.triangles[i].triangle);
+  std::vector<Index> cracked;
+  for (std::size_t i = before; i < state_.damage.triangles.size(); ++i) {
+    cracked.push_back(state_.damage.triangles[i].triangle);
+    bulk_.drop_viscosity(cracked.back());
+  }
+  tiles_->triangles_changed(state_, physics(), cracked);
 }
 
 void Simulation::prepare_insertion() {
   set_screen();
   stressed_.assign(scene_.mesh->triangles.size(), 0);
-  block_stressed_.assign(block_has_elements_.size(), 0);
+  block_stressed_.assign(at(block_count(scene_.mesh->triangle_count())), 0);
   std::vector<Index> cracks = scene_.cracks;
   std::sort(cracks.begin(), cracks.end());
   insert(cracks);
@@ -516,7 +503,6 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
     // Where a sliver leaves no room the step gives way instead.
     penalty.push_back(std::min(cohesive_->materials()[material].penalty,
                                std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
-    for (const Index t : scene_.mesh->edges[at(e)].triangle) block_has_elements_[at(t / block_size)] = 1;
   }
   const Index nodes = state_.node_count();
   const Index first = state_.cohesive.count();
@@ -532,6 +518,7 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
   };
   rough_insertions_ +=
       static_cast<Index>(cohesive_->insert(state_, edges, penalty, material, rock, load).size());
+  if (tiles_) tiles_->inserted(state_, physics(), edges);
   if (state_.node_count() == nodes) return;
   if (fluid_) fluid_->rebuild(state_);
   for (Index i = first; i < state_.cohesive.count(); ++i) {
@@ -553,59 +540,14 @@ double Simulation::wellbore_pressure() const {
 }
 
 void Simulation::move_nodes(double dt) {
-  const Mesh& mesh = *scene_.mesh;
-  std::vector<double> power(at(block_count(mesh.triangle_count())));
-  // With one node a corner a triangle's nodes are its own: they move as soon as their forces are known,
-  // while they are in the cache. Nodes that corners share wait for all their corners.
-  const bool own_nodes = corner_force_.empty();
-  for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index block) {
-    Vec2 forces[3 * block_size];
-    if (stressed_.empty()) {
-      power[at(block)] = bulk_.corner_forces(state_, begin, end, forces);
-    } else {
-      std::uint8_t* stressed = stressed_.data() + begin;
-      power[at(block)] = bulk_.corner_forces(state_, begin, end, forces, screen_, stressed);
-      block_stressed_[at(block)] =
-          std::any_of(stressed, stressed + (end - begin), [](auto s) { return s != 0; });
-    }
-    if (!state_.damage.triangles.empty()) {
-      for (Index t = begin; t < end; ++t) {
-        const Index d = state_.damage.of_triangle[at(t)];
-        if (d < 0) continue;
-        for (Index i = 0; i < 3; ++i) {
-          const Vec2 weight{0.0, bulk_.corner_weight(t)};
-          forces[3 * (t - begin) + i] = state_.damage.triangles[at(d)].force[at(i)] + weight;
-        }
-      }
-    }
-    if (block_has_elements_[at(block)]) {
-      for (Index t = begin; t < end; ++t) {
-        add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
-                           forces + 3 * (t - begin));
-      }
-    }
-    if (own_nodes) {
-      move(state_.displacement.data() + 3 * begin, state_.velocity.data() + 3 * begin,
-           state_.inverse_mass.data() + 3 * begin, forces, dt, 3 * (end - begin));
-    } else {
-      std::copy(forces, forces + 3 * (end - begin), corner_force_.begin() + 3 * begin);
-    }
-  });
-  if (!own_nodes) {
-    for_each_block(state_.node_count(), [&](Index begin, Index end, Index) {
-      Vec2 forces[block_size];
-      for (Index n = begin; n < end; ++n) {
-        Vec2 f;
-        for (Index j = 0; j < state_.node_size[at(n)]; ++j) {
-          f += corner_force_[at(state_.node_corners[at(state_.node_first[at(n)] + j)])];
-        }
-        forces[n - begin] = f;
-      }
-      move(state_.displacement.data() + begin, state_.velocity.data() + begin,
-           state_.inverse_mass.data() + begin, forces, dt, end - begin);
-    });
-  }
-  for (const double p : power) state_.dissipation.viscous += dt * p;
+  for (const double p : tiles_->move(state_, physics(), dt, screen_, stressed_, block_stressed_))
+    state_.dissipation.viscous += dt * p;
+}
+
+void Simulation::heed_new_histories() {
+  if (!cohesive_ || !tiles_) return;
+  cohesive_->start_histories(state_, tiles_->near());
+  tiles_->elements_changed(state_, physics(), cohesive_->started());
 }
 
 void Simulation::listen_to_slips() {
@@ -621,7 +563,7 @@ void Simulation::advance(double dt, Energies* account) {
   stopwatch_.start();
   new_events_.clear();
   if (cohesive_) {
-    cohesive_->add_tractions(state_);
+    cohesive_->add_tractions(state_, tiles_->apart());
     if (!stressed_.empty()) insert_stressed();
     stopwatch_.lap(Stopwatch::cohesive);
   }
@@ -691,6 +633,7 @@ void Simulation::advance(double dt, Energies* account) {
   state_.time += dt;
   state_.time_step = dt;
   ++state_.step;
+  heed_new_histories();
 }
 
 double Simulation::kinetic_energy(const std::vector<Vec2>& before) const {
@@ -761,6 +704,7 @@ double Simulation::imbalance() {
   double largest = 0.0;
   for (const Vec2 f : forces) largest = std::max(largest, norm(f));
   if (cohesive_) cohesive_->add_tractions(state_);
+  if (tiles_ && cohesive_) tiles_->elements_changed(state_, physics(), cohesive_->started());
   if (fluid_) fluid_->add_corner_forces(state_, forces);
   std::vector<Vec2> sum(at(state_.node_count()));
   if (boundary_) boundary_->add_loads(sum);

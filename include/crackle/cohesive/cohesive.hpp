@@ -40,6 +40,15 @@ class Cohesive {
   /// Evaluates all elements: writes their end forces, grows damage, books dissipation to the state
   /// and collects the elements that broke (newly_broken()).
   void add_tractions(State& state);
+  /// The same, but of the intact elements only those listed (in parts that are evaluated in parallel): the
+  /// forces of the others are found where they are needed.
+  void add_tractions(State& state, std::span<const std::vector<Index>> intact);
+
+  /// Gives intact elements that are near their strength a history: from now on they are evaluated point by
+  /// point. @param elements in ascending order
+  void start_histories(State& state, std::span<const Index> elements);
+  /// Elements that got a history since the last add_tractions() began.
+  std::span<const Index> started() const { return started_; }
 
   /// Elements broken by the last add_tractions(), in ascending order.
   std::span<const Index> newly_broken() const { return newly_broken_; }
@@ -97,8 +106,7 @@ class Cohesive {
 
   std::shared_ptr<const CohesiveLaw> law_;
   std::vector<CohesiveMaterial> materials_;
-  std::vector<std::uint8_t> beyond_;  // per element, of the last fast pass
-  std::vector<Index> newly_broken_;
+  std::vector<Index> newly_broken_, started_;
   bool changed_ = false;
 };
 

@@ -17,17 +17,10 @@
 #include <vector>
 
 #include "crackle/solid/stiffness.hpp"
+#include "crackle/solid/triangle.hpp"
 #include "crackle/state/state.hpp"
 
 namespace crackle {
-
-/// A stress limit with which triangles near their strength are found on the way: stressed where the
-/// largest principal stress passes `tension`, or where |τ| + σ_n tan φ does `shear` on some plane.
-struct StressScreen {
-  double tension = 0.0;  ///< [Pa]
-  double shear = 0.0;    ///< [Pa]
-  double tan_friction = 0.0;
-};
 
 /// Effective stress of the rock before anything is done to it [Pa], tension positive.
 struct InSituStress {  // NOLINTNEXTLINE(google-explicit-constructor): a stress without gradient is one
@@ -58,14 +51,14 @@ class Bulk {
     return viscous_ ? viscosity_[static_cast<std::size_t>(triangle)] : 0.0;
   }
   const PlaneStiffness& stiffness() const { return stiffness_; }
+  /// Weight of the rock [N/m3], along y; 0: it is in the in-situ stress already.
+  double weight() const { return weight_; }
+  Sym2 in_situ(Index triangle) const { return in_situ_[static_cast<std::size_t>(triangle)]; }
 
   /// Forces [N/m] on the three corners of triangles [begin, end), in corner order, written (not
   /// added) to forces[3 (t − begin) + i], weight included. Writes state.strain_rate when viscous.
   /// @return viscous dissipation of the last step times 1/time_step [W/m]
   double corner_forces(State& state, Index begin, Index end, Vec2* forces) const;
-  /// The same; also marks with 1 in stressed[t − begin] every triangle that passes the screen, others with 0.
-  double corner_forces(State& state, Index begin, Index end, Vec2* forces, const StressScreen& screen,
-                       std::uint8_t* stressed) const;
 
   /// The forces on one triangle's corners [N/m], nothing written.
   std::array<Vec2, 3> triangle_forces(const State& state, Index triangle) const;

@@ -15,6 +15,7 @@
 #include "crackle/solve/boundary.hpp"
 #include "crackle/solve/ramp.hpp"
 #include "crackle/solve/stopwatch.hpp"
+#include "crackle/solve/tiles.hpp"
 #include "crackle/solve/time_step.hpp"
 #include "crackle/state/state.hpp"
 
@@ -167,6 +168,8 @@ class Simulation {
   void relax();
   void advance(double dt, Energies* account);
   void move_nodes(double dt);
+  void heed_new_histories();
+  Tiles::Physics physics() const { return {bulk_, cohesive()}; }
   void listen_to_slips();
   static double longest_joint_edge(const Mesh& mesh);
   SeismicMedium medium() const { return {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness}; }
@@ -197,13 +200,12 @@ class Simulation {
   StableStep stable_;
   Stopwatch stopwatch_;
   std::vector<SeismicEvent> new_events_;
-  std::vector<Vec2> corner_force_;  // where corners share nodes
+  std::optional<Tiles> tiles_;
   std::vector<Vec2> velocity_before_;
-  StressScreen screen_;                   // on demand: near the threshold
-  std::vector<std::uint8_t> stressed_;    // per triangle, of the last step
-  std::vector<char> block_stressed_;      // per block of triangles: any
-  std::vector<char> block_has_elements_;  // per block of triangles: any on its sides
-  double slowed_ = 1.0;                   // share of the step that inserted elements leave
+  StressScreen screen_;                 // on demand: near the threshold
+  std::vector<std::uint8_t> stressed_;  // per triangle, of the last step
+  std::vector<char> block_stressed_;    // per block of triangles: any
+  double slowed_ = 1.0;                 // share of the step that inserted elements leave
   Index rough_insertions_ = 0;
   std::optional<Ramp> ramp_;
   double ramp_end_ = 0.0;

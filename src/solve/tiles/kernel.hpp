@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The work of one tile in its own small arrays, eight triangles or elements at a time. Compiled for three x86
+// levels (kernel_*.cpp), of which one is picked at start; without contraction all give the same bits.
+#pragma once
+
+#include <cstdint>
+
+#include "crackle/cohesive/elastic_element.hpp"
+#include "crackle/solid/triangle.hpp"
+
+namespace crackle::tiles {
+
+inline constexpr int lanes = 8;
+
+/// Triangles of a tile by groups of eight. A node of the tile has four numbers: displacement and reference
+/// position, and is named by twice its number. Arrays of numbers have one row of eight a group (and
+/// component).
+struct RockWork {
+  int groups;
+  const std::uint16_t* corners;  ///< [group][corner][lane], a node of the tile
+  const double* nodes;           ///< [node][ux uy X Y]
+  double* force;                 ///< [node][x y], added to
+  PlaneStiffness stiffness;
+  Sym2 in_situ;
+  const double* in_situ_rows;  ///< [group][component][lane] where it is not the same in all; else null
+  double weight;               ///< [N/m3]
+  // viscous; velocity null: not
+  const double* velocity;   ///< [node][x y]
+  const double* viscosity;  ///< [group][lane]
+  double* strain_rate;      ///< [group][component][lane], of the last step: replaced
+  double* power;            ///< [lane], added to
+  // screened; stressed null: not
+  StressScreen screen;
+  std::uint8_t* stressed;  ///< [group][lane], not zero where the screen is passed
+};
+
+/// Intact cohesive elements whose two triangles lie in the tile.
+struct ElementWork {
+  int groups;
+  const std::uint16_t* ends;  ///< [group][a0 a1 b0 b1][lane], a node of the tile
+  const double* numbers;      ///< [group][1/length, opening0, slip0, opening1, slip1][lane]
+  const double* nodes;
+  double* force;
+  ElasticLimits<double> limits;
+  std::uint8_t* near;  ///< [group][lane], not zero near the strength
+};
+
+struct Kernels {
+  void (*rock)(const RockWork&);
+  void (*elements)(const ElementWork&);
+};
+
+/// Those for the processor that this runs on.
+const Kernels& kernels();
+
+#define CRACKLE_DECLARE_KERNELS(level) \
+  namespace level {                    \
+  void rock(const RockWork&);          \
+  void elements(const ElementWork&);   \
+  }
+CRACKLE_DECLARE_KERNELS(baseline)
+CRACKLE_DECLARE_KERNELS(v3)
+CRACKLE_DECLARE_KERNELS(v4)
+#undef CRACKLE_DECLARE_KERNELS
+
+}  // namespace crackle::tiles

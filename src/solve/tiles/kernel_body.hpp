@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Body of kernel_*.cpp, which set CRACKLE_LEVEL and the compiler's flags. Everything here is inlined: nothing
+// that is compiled for one level may be linked into another, so nothing of the standard library is used.
+#include "kernel.hpp"
+
+#ifndef CRACKLE_LEVEL
+#error "include it from kernel_*.cpp"
+#endif
+
+namespace crackle::tiles {
+namespace {
+
+using V = double __attribute__((vector_size(64)));
+using V4 = double __attribute__((vector_size(32), aligned(32), may_alias));
+using V2 = double __attribute__((vector_size(16), aligned(16), may_alias));
+using Row = double __attribute__((vector_size(64), aligned(64), may_alias));
+using Bytes = std::uint8_t __attribute__((vector_size(8), aligned(8), may_alias));
+
+#define CRACKLE_INLINE [[gnu::always_inline]] inline
+
+CRACKLE_INLINE std::uintptr_t index(std::uint16_t n) { return n; }
+CRACKLE_INLINE V row(const double* p) { return *reinterpret_cast<const Row*>(p); }
+CRACKLE_INLINE void put(double* p, V v) { *reinterpret_cast<Row*>(p) = v; }
+CRACKLE_INLINE V4 four(const double* p) { return *reinterpret_cast<const V4*>(p); }
+CRACKLE_INLINE V2 two(const double* p) { return *reinterpret_cast<const V2*>(p); }
+
+template <class Mask>
+CRACKLE_INLINE void put_mask(std::uint8_t* p, Mask mask) {
+  *reinterpret_cast<Bytes*>(p) = __builtin_convertvector(mask, Bytes);
+}
+
+struct Nodes {  // of eight lanes
+  V ux, uy, x, y;
+};
+
+// Eight times four numbers, turned into four times eight.
+CRACKLE_INLINE Nodes gather(const double* nodes, const std::uint16_t* n) {
+  const auto pair = [&](int k) {
+    return __builtin_shufflevector(four(nodes + 2 * index(n[k])), four(nodes + 2 * index(n[k + 4])), 0, 1, 2,
+                                   3, 4, 5, 6, 7);
+  };
+  const V r0 = pair(0), r1 = pair(1), r2 = pair(2), r3 = pair(3);
+  const V a0 = __builtin_shufflevector(r0, r1, 0, 8, 2, 10, 4, 12, 6, 14);
+  const V a1 = __builtin_shufflevector(r2, r3, 0, 8, 2, 10, 4, 12, 6, 14);
+  const V b0 = __builtin_shufflevector(r0, r1, 1, 9, 3, 11, 5, 13, 7, 15);
+  const V b1 = __builtin_shufflevector(r2, r3, 1, 9, 3, 11, 5, 13, 7, 15);
+  return {__builtin_shufflevector(a0, a1, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(b0, b1, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(a0, a1, 2, 3, 10, 11, 6, 7, 14, 15),
+          __builtin_shufflevector(b0, b1, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+
+struct Pairs {
+  V x, y;
+};
+
+CRACKLE_INLINE Pairs gather_pairs(const double* p, const std::uint16_t* n) {
+  const auto both = [&](int k) {
+    return __builtin_shufflevector(two(p + index(n[k])), two(p + index(n[k + 1])), 0, 1, 2, 3);
+  };
+  const V low = __builtin_shufflevector(both(0), both(2), 0, 1, 2, 3, 4, 5, 6, 7);
+  const V high = __builtin_shufflevector(both(4), both(6), 0, 1, 2, 3, 4, 5, 6, 7);
+  return {__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14),
+          __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15)};
+}
+
+// Eight forces, lane after lane, in pairs of lanes.
+struct Spread {
+  alignas(64) double even[lanes], odd[lanes];
+  CRACKLE_INLINE Spread(V x, V y) {
+    put(even, __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14));
+    put(odd, __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15));
+  }
+  CRACKLE_INLINE V2 operator[](int lane) const { return two((lane % 2 ? odd : even) + (lane & ~1)); }
+};
+
+CRACKLE_INLINE void add(double* force, std::uint16_t n, V2 f) {
+  *reinterpret_cast<V2*>(force + index(n)) = two(force + index(n)) + f;
+}
+
+template <bool viscous, bool screened>
+CRACKLE_INLINE void rock_groups(const RockWork& w) {
+  V power = viscous ? row(w.power) : V{};
+  for (int g = 0; g < w.groups; ++g) {
+    const std::uint16_t* n = w.corners + 3 * lanes * g;
+    const Nodes p0 = gather(w.nodes, n), p1 = gather(w.nodes, n + lanes), p2 = gather(w.nodes, n + 2 * lanes);
+    const V e1x = p1.x - p0.x, e1y = p1.y - p0.y, e2x = p2.x - p0.x, e2y = p2.y - p0.y;
+    const V twice = e1x * e2y - e1y * e2x;
+    const V inverse = 1.0 / twice;
+    const triangle::Shape<V> shape{e2y * inverse, -e2x * inverse, -e1y * inverse, e1x * inverse};
+    const auto h = triangle::gradient(shape, p1.ux - p0.ux, p1.uy - p0.uy, p2.ux - p0.ux, p2.uy - p0.uy);
+    auto s = triangle::stress(w.stiffness, triangle::green_strain(h));
+    if (w.in_situ_rows != nullptr) {
+      const double* in_situ = w.in_situ_rows + 3 * lanes * g;
+      s = {s.xx + row(in_situ), s.yy + row(in_situ + lanes), s.xy + row(in_situ + 2 * lanes)};
+    } else {
+      s = {s.xx + w.in_situ.xx, s.yy + w.in_situ.yy, s.xy + w.in_situ.xy};
+    }
+    if constexpr (screened) put_mask(w.stressed + lanes * g, triangle::passes(w.screen, s));
+    const V area = 0.5 * twice;
+    if constexpr (viscous) {
+      const Pairs v0 = gather_pairs(w.velocity, n), v1 = gather_pairs(w.velocity, n + lanes),
+                  v2 = gather_pairs(w.velocity, n + 2 * lanes);
+      const auto rate = triangle::strain_rate(
+          h, triangle::gradient(shape, v1.x - v0.x, v1.y - v0.y, v2.x - v0.x, v2.y - v0.y));
+      double* last = w.strain_rate + 3 * lanes * g;
+      const triangle::Tensor<V> before{row(last), row(last + lanes), row(last + 2 * lanes)};
+      const V viscosity = row(w.viscosity + lanes * g);
+      power += triangle::viscous_power(area, viscosity, rate, before);
+      put(last, rate.xx);
+      put(last + lanes, rate.yy);
+      put(last + 2 * lanes, rate.xy);
+      s = {s.xx + viscosity * rate.xx, s.yy + viscosity * rate.yy, s.xy + viscosity * rate.xy};
+    }
+    const auto f = triangle::forces(h, s, shape, area);
+    const V weight = w.weight * area / 3.0;
+    const Spread f0(-f.x1 - f.x2, -f.y1 - f.y2 + weight), f1(f.x1, f.y1 + weight), f2(f.x2, f.y2 + weight);
+#pragma GCC unroll 8
+    for (int l = 0; l < lanes; ++l) {
+      add(w.force, n[l], f0[l]);
+      add(w.force, n[lanes + l], f1[l]);
+      add(w.force, n[2 * lanes + l], f2[l]);
+    }
+  }
+  if constexpr (viscous) put(w.power, power);
+}
+
+}  // namespace
+
+namespace CRACKLE_LEVEL {
+
+void rock(const RockWork& w) {
+  if (w.velocity != nullptr) {
+    w.stressed != nullptr ? rock_groups<true, true>(w) : rock_groups<true, false>(w);
+  } else {
+    w.stressed != nullptr ? rock_groups<false, true>(w) : rock_groups<false, false>(w);
+  }
+}
+
+void elements(const ElementWork& w) {
+  for (int g = 0; g < w.groups; ++g) {
+    const std::uint16_t* n = w.ends + 4 * lanes * g;
+    const Nodes a0 = gather(w.nodes, n), a1 = gather(w.nodes, n + lanes), b0 = gather(w.nodes, n + 2 * lanes),
+                b1 = gather(w.nodes, n + 3 * lanes);
+    const double* numbers = w.numbers + 5 * lanes * g;
+    const V dx = a1.x - a0.x, dy = a1.y - a0.y, inverse_length = row(numbers);
+    const ElasticElement<V> e{b0.ux - a0.ux,
+                              b0.uy - a0.uy,
+                              b1.ux - a1.ux,
+                              b1.uy - a1.uy,
+                              dx + 0.5 * ((a1.ux + b1.ux) - (a0.ux + b0.ux)),
+                              dy + 0.5 * ((a1.uy + b1.uy) - (a0.uy + b0.uy)),
+                              (dx * dx + dy * dy) * inverse_length,
+                              inverse_length,
+                              row(numbers + lanes),
+                              row(numbers + 2 * lanes),
+                              row(numbers + 3 * lanes),
+                              row(numbers + 4 * lanes)};
+    const auto f = elastic_forces(e, w.limits);
+    put_mask(w.near + lanes * g, f.beyond > 0.0);
+    const Spread end0(f.x0, f.y0), end1(f.x1, f.y1);
+#pragma GCC unroll 8
+    for (int l = 0; l < lanes; ++l) {
+      add(w.force, n[l], end0[l]);
+      add(w.force, n[lanes + l], end1[l]);
+      add(w.force, n[2 * lanes + l], -end0[l]);
+      add(w.force, n[3 * lanes + l], -end1[l]);
+    }
+  }
+}
+
+}  // namespace CRACKLE_LEVEL
+}  // namespace crackle::tiles

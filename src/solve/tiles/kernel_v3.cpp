@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define CRACKLE_LEVEL v3
+#include "kernel_body.hpp"
