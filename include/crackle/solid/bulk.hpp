@@ -53,7 +53,6 @@ class Bulk {
   const PlaneStiffness& stiffness() const { return stiffness_; }
   /// Weight of the rock [N/m3], along y; 0: it is in the in-situ stress already.
   double weight() const { return weight_; }
-  Sym2 in_situ(Index triangle) const { return in_situ_[static_cast<std::size_t>(triangle)]; }
 
   /// Forces [N/m] on the three corners of triangles [begin, end), in corner order, written (not
   /// added) to forces[3 (t − begin) + i], weight included. Writes state.strain_rate when viscous.
