@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "crackle/core/errors.hpp"
+#include "crackle/solve/lanczos.hpp"
 #include "frames.hpp"
 
 namespace crackle {
@@ -120,9 +121,11 @@ Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh
 StableStep stable_step_of(const Scene& scene) {
   const bool split = scene.law && !scene.insertion.on_demand;
   State state = split ? make_split_state(scene.mesh) : make_tied_state(scene.mesh);
-  const Bulk bulk(*scene.mesh, scene.stiffness, scene.density, scene.stress, scene.damping);
+  const Bulk bulk(*scene.mesh, scene.triangle_stiffness.value_or(scene.stiffness), scene.density,
+                  scene.stress, scene.damping);
   set_mass(state, scene.density);
-  if (!scene.law) return stable_step(state, bulk, nullptr);
+  if (!scene.absorbing_boundary) fix_nodes(state, EdgeKind::outer);
+  if (!scene.law) return sharpened(stable_step(state, bulk, nullptr), state, bulk, nullptr);
   if (split) insert_all(state);
   std::vector<CohesiveMaterial> materials{scene.cohesive};
   materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
@@ -133,7 +136,8 @@ StableStep stable_step_of(const Scene& scene) {
   }
   const Cohesive cohesive(scene.law, std::move(materials));
   StableStep stable = stable_step(state, bulk, &cohesive);
-  if (!split) stable.limit *= scene.insertion.step;
+  if (split) return sharpened(stable, state, bulk, &cohesive);
+  stable.limit *= scene.insertion.step;
   return stable;
 }
 

@@ -26,6 +26,8 @@ void members(Energies& e, V&& v) {
 template <class V>
 void members(StableStep& s, V&& v) {
   v("limit", s.limit);
+  v("proven", s.proven);
+  v("margin", s.margin);
   v("triangle", s.triangle);
   v("without_viscosity", s.without_viscosity);
   v("without_elements", s.without_elements);

@@ -58,6 +58,7 @@ class Tiles {
  private:
   struct Tile;
   struct Scratch;
+  struct Reads;
 
   void number_nodes(const State& state, Index tile);
   void number_corners(const State& state, const Bulk& bulk, Index tile);

@@ -13,6 +13,17 @@ namespace crackle::tiles {
 
 inline constexpr int lanes = 8;
 
+/// What the next tile will read, fetched into the second cache while this one is worked on, a few lines a
+/// group: a tile's loads come all at once, and then there is nothing to do but wait.
+struct Ahead {
+  struct Range {
+    const char *from, *to;
+  };
+  const Range* range;
+  const Range* end;
+  int lines;  ///< a group
+};
+
 /// Triangles of a tile by groups of eight. A node of the tile has four numbers: displacement and reference
 /// position, and is named by twice its number. Arrays of numbers have one row of eight a group (and
 /// component).
@@ -33,6 +44,7 @@ struct RockWork {
   // screened; stressed null: not
   StressScreen screen;
   std::uint8_t* stressed;  ///< [group][lane], not zero where the screen is passed
+  Ahead ahead;
 };
 
 /// Intact cohesive elements whose two triangles lie in the tile.
@@ -44,6 +56,7 @@ struct ElementWork {
   double* force;
   ElasticLimits<double> limits;
   std::uint8_t* near;  ///< [group][lane], not zero near the strength
+  Ahead ahead;
 };
 
 struct Kernels {

@@ -79,10 +79,28 @@ CRACKLE_INLINE void add(double* force, std::uint16_t n, V2 f) {
   *reinterpret_cast<V2*>(force + index(n)) = two(force + index(n)) + f;
 }
 
+class Fetch {
+ public:
+  CRACKLE_INLINE explicit Fetch(const Ahead& a) : a_(a), at_(a.range < a.end ? a.range->from : nullptr) {}
+  CRACKLE_INLINE void some() {
+    for (int k = 0; k < a_.lines && a_.range < a_.end; ++k) {
+      __builtin_prefetch(at_, 0, 2);
+      at_ += 64;
+      if (at_ >= a_.range->to && ++a_.range < a_.end) at_ = a_.range->from;
+    }
+  }
+
+ private:
+  Ahead a_;
+  const char* at_;
+};
+
 template <bool viscous, bool screened>
 CRACKLE_INLINE void rock_groups(const RockWork& w) {
   V power = viscous ? row(w.power) : V{};
+  Fetch fetch(w.ahead);
   for (int g = 0; g < w.groups; ++g) {
+    fetch.some();
     const std::uint16_t* n = w.corners + 3 * lanes * g;
     const Nodes p0 = gather(w.nodes, n), p1 = gather(w.nodes, n + lanes), p2 = gather(w.nodes, n + 2 * lanes);
     const V e1x = p1.x - p0.x, e1y = p1.y - p0.y, e2x = p2.x - p0.x, e2y = p2.y - p0.y;
@@ -139,7 +157,9 @@ void rock(const RockWork& w) {
 }
 
 void elements(const ElementWork& w) {
+  Fetch fetch(w.ahead);
   for (int g = 0; g < w.groups; ++g) {
+    fetch.some();
     const std::uint16_t* n = w.ends + 4 * lanes * g;
     const Nodes a0 = gather(w.nodes, n), a1 = gather(w.nodes, n + lanes), b0 = gather(w.nodes, n + 2 * lanes),
                 b1 = gather(w.nodes, n + 3 * lanes);

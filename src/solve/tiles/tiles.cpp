@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "crackle/core/large_pages.hpp"
 #include "crackle/core/parallel.hpp"
 #include "kernel.hpp"
 
@@ -28,7 +29,7 @@ int groups_of(std::size_t items) { return static_cast<int>((items + lanes - 1) /
 
 // Nodes that stand for none: corners of the triangle that fills up a group.
 constexpr Index dummies = 3;
-constexpr double dummy_place[2 * dummies] = {0.0, 0.0, 1.0, 0.0, 0.0, 1.0};
+constexpr std::array<Vec2, dummies> dummy_place{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
 
 void sort_out(std::vector<Index>& items) {
   std::sort(items.begin(), items.end());
@@ -55,7 +56,9 @@ struct Tiles::Tile {
   Index begin = 0, end = 0;            // triangles
   std::vector<Index> nodes;            // those shared with other tiles first, both parts ascending
   Index shared = 0;                    // so many
-  std::vector<double> place;           // reference X, Y of nodes, then of the dummies
+  bool in_a_row = false;               // nodes follow one another and none is shared
+  std::vector<std::uint16_t> vertex;   // of nodes and dummies: number in place
+  std::vector<Vec2> place;             // reference positions of the tile's vertices, then of the dummies
   std::vector<std::uint16_t> corners;  // [group][corner][lane]
   struct Damaged {
     Index number;  // into state.damage.triangles
@@ -75,6 +78,7 @@ struct Tiles::Tile {
   std::vector<std::uint16_t> parts;  // of each
   std::vector<const Vec2*> part;
 
+  Index count() const { return static_cast<Index>(nodes.size()); }
   int groups() const { return groups_of(at(end - begin)); }
   // Twice the number of a node in the tile.
   std::uint16_t name(Index node) const { return static_cast<std::uint16_t>(2 * local(node)); }
@@ -98,6 +102,69 @@ struct Tiles::Scratch {
   alignas(64) std::array<double, lanes> power;
   alignas(64) std::array<std::uint8_t, block_size> stressed;
   alignas(64) std::array<std::uint8_t, 2 * block_size> near;
+
+  template <class Node>
+  void load(const State& state, const Tile& tile, const Node& node) {
+    const std::size_t count = tile.nodes.size();
+    for (std::size_t k = 0; k < count + dummies; ++k) {
+      const Vec2 u = k < count ? state.displacement[node(k)] : Vec2{}, x = tile.place[tile.vertex[k]];
+      nodes[4 * k] = u.x;
+      nodes[4 * k + 1] = u.y;
+      nodes[4 * k + 2] = x.x;
+      nodes[4 * k + 3] = x.y;
+    }
+  }
+  // v += Δt f/m, x += Δt v of the nodes that are the tile's own
+  template <class Node>
+  void move(State& state, const Tile& tile, double dt, const Node& node) const {
+    for (std::size_t k = at(tile.shared); k < tile.nodes.size(); ++k) {
+      const std::size_t n = node(k);
+      const double w = dt * state.inverse_mass[n];
+      Vec2 v = state.velocity[n];
+      v.x += w * force[2 * k];
+      v.y += w * force[2 * k + 1];
+      state.velocity[n] = v;
+      state.displacement[n] = {nodes[4 * k] + dt * v.x, nodes[4 * k + 1] + dt * v.y};
+    }
+  }
+};
+
+namespace {
+
+template <class T>
+tiles::Ahead::Range range_of(const T* first, std::size_t count) {
+  const char* from = reinterpret_cast<const char*>(first);
+  return {from, from + count * sizeof(T)};
+}
+
+}  // namespace
+
+// What a tile reads, for Ahead.
+struct Tiles::Reads {
+  std::array<tiles::Ahead::Range, 9> ranges;
+  std::size_t count = 0;
+  std::size_t lines = 0;
+
+  void add(tiles::Ahead::Range r) {
+    if (r.from >= r.to) return;
+    ranges[count++] = r;
+    lines += static_cast<std::size_t>(r.to - r.from) / 64 + 1;
+  }
+  Reads(const State& state, const Tile& tile) {
+    const std::size_t first = at(tile.nodes[at(std::min(tile.shared, tile.count() - 1))]);
+    const std::size_t own = at(tile.nodes.back()) - std::min(first, at(tile.nodes.back())) + 1;
+    if (own < 2 * tile.nodes.size()) {  // else they are far from one another
+      add(range_of(state.displacement.data() + first, own));
+      add(range_of(state.velocity.data() + first, own));
+      add(range_of(state.inverse_mass.data() + first, own));
+    }
+    if (!tile.in_a_row) add(range_of(tile.nodes.data(), tile.nodes.size()));
+    add(range_of(tile.vertex.data(), tile.vertex.size()));
+    add(range_of(tile.place.data(), tile.place.size()));
+    add(range_of(tile.corners.data(), tile.corners.size()));
+    add(range_of(tile.ends.data(), tile.ends.size()));
+    add(range_of(tile.numbers.data(), tile.numbers.size()));
+  }
 };
 
 Tiles::Tiles(Tiles&&) noexcept = default;
@@ -116,6 +183,15 @@ Tiles::Tiles(const State& state, const Physics& physics)
     list_elements(state, physics.cohesive, i);
   });
   for_each_tile(tiles_.size(), [&](Index i) { link(state, i); });
+  std::vector<std::span<const std::byte>> arrays;
+  for (const Tile& tile : tiles_) {
+    const Reads reads(state, tile);
+    for (std::size_t k = 0; k < reads.count; ++k) {
+      const auto [from, to] = reads.ranges[k];
+      arrays.push_back(std::as_bytes(std::span(from, to)));
+    }
+  }
+  use_large_pages(std::move(arrays));
 }
 
 void Tiles::number_nodes(const State& state, Index i) {
@@ -130,13 +206,27 @@ void Tiles::number_nodes(const State& state, Index i) {
   tile.shared = static_cast<Index>(middle - tile.nodes.begin());
   tile.nodes.shrink_to_fit();
   tile.partial.assign(at(tile.shared), {});
-  tile.place.clear();
+  tile.in_a_row = tile.shared == 0 && tile.nodes.back() - tile.nodes.front() + 1 == tile.count();
+  const auto vertex_of = [&](Index node) {
+    const Index corner = corners_of(state, node).front();
+    return state.mesh->triangles[at(corner / 3)][at(corner % 3)];
+  };
+  std::vector<Index> vertices;
+  for (const Index node : tile.nodes) vertices.push_back(vertex_of(node));
+  sort_out(vertices);
+  tile.vertex.clear();
+  tile.vertex.reserve(tile.nodes.size() + dummies);
   for (const Index node : tile.nodes) {
-    const Vec2 x = state.node_reference(node);
-    tile.place.insert(tile.place.end(), {x.x, x.y});
+    const auto it = std::lower_bound(vertices.begin(), vertices.end(), vertex_of(node));
+    tile.vertex.push_back(static_cast<std::uint16_t>(it - vertices.begin()));
   }
-  tile.place.insert(tile.place.end(), std::begin(dummy_place), std::end(dummy_place));
-  tile.place.shrink_to_fit();
+  tile.place.clear();
+  tile.place.reserve(vertices.size() + dummies);
+  for (const Index v : vertices) tile.place.push_back(state.mesh->vertices[at(v)]);
+  for (const Vec2 x : dummy_place) {
+    tile.vertex.push_back(static_cast<std::uint16_t>(tile.place.size()));
+    tile.place.push_back(x);
+  }
 }
 
 void Tiles::number_corners(const State& state, const Bulk& bulk, Index i) {
@@ -304,18 +394,8 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   const Bulk& bulk = physics.bulk;
   Scratch s;  // not initialised
   const std::size_t count = tile.nodes.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec2 u = state.displacement[at(tile.nodes[k])];
-    s.nodes[4 * k] = u.x;
-    s.nodes[4 * k + 1] = u.y;
-    s.nodes[4 * k + 2] = tile.place[2 * k];
-    s.nodes[4 * k + 3] = tile.place[2 * k + 1];
-  }
-  for (std::size_t k = count; k < count + dummies; ++k) {
-    s.nodes[4 * k] = s.nodes[4 * k + 1] = 0.0;
-    s.nodes[4 * k + 2] = tile.place[2 * k];
-    s.nodes[4 * k + 3] = tile.place[2 * k + 1];
-  }
+  tile.in_a_row ? s.load(state, tile, [first = tile.nodes.front()](std::size_t k) { return at(first) + k; })
+                : s.load(state, tile, [&](std::size_t k) { return at(tile.nodes[k]); });
   std::fill_n(s.force.begin(), 2 * (count + dummies), 0.0);
 
   const int groups = tile.groups();
@@ -332,7 +412,15 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
                        .strain_rate = nullptr,
                        .power = nullptr,
                        .screen = screen,
-                       .stressed = stressed.empty() ? nullptr : s.stressed.data()};
+                       .stressed = stressed.empty() ? nullptr : s.stressed.data(),
+                       .ahead = {}};
+  // Half of what the next tile reads is fetched with the triangles, half with the elements.
+  const Reads reads(state, tiles_[std::min(at(i) + 1, tiles_.size() - 1)]);
+  const int element_groups = groups_of(tile.elements.size());
+  const tiles::Ahead::Range* const ranges = reads.ranges.data();
+  const std::size_t half = element_groups > 0 ? reads.count / 2 : reads.count;
+  const int lines = static_cast<int>(reads.lines) / (groups + element_groups) + 1;
+  rock.ahead = {ranges, ranges + half, lines};
   if (bulk.viscous()) {
     for (std::size_t k = 0; k < count; ++k) {
       const Vec2 v = state.velocity[at(tile.nodes[k])];
@@ -381,7 +469,6 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   near.clear();
   if (!tile.elements.empty()) {
     const CohesiveMaterial& m = physics.cohesive->materials()[tile.material];
-    const int element_groups = groups_of(tile.elements.size());
     kernels.elements(
         {element_groups,
          tile.ends.data(),
@@ -389,7 +476,8 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
          s.nodes.data(),
          s.force.data(),
          {m.penalty, m.tensile_strength, m.cohesion, m.tan_friction, physics.cohesive->law().curvature()},
-         s.near.data()});
+         s.near.data(),
+         {ranges + half, ranges + reads.count, lines}});
     if (std::any_of(s.near.begin(), s.near.begin() + lanes * element_groups,
                     [](auto mark) { return mark != 0; })) {
       for (Index j = 0; j < static_cast<Index>(tile.elements.size()); ++j) {
@@ -416,15 +504,9 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   }
 
   for (std::size_t k = 0; k < at(tile.shared); ++k) tile.partial[k] = {s.force[2 * k], s.force[2 * k + 1]};
-  for (std::size_t k = at(tile.shared); k < count; ++k) {
-    const std::size_t n = at(tile.nodes[k]);
-    const double w = dt * state.inverse_mass[n];
-    Vec2 v = state.velocity[n];
-    v.x += w * s.force[2 * k];
-    v.y += w * s.force[2 * k + 1];
-    state.velocity[n] = v;
-    state.displacement[n] = {s.nodes[4 * k] + dt * v.x, s.nodes[4 * k + 1] + dt * v.y};
-  }
+  tile.in_a_row
+      ? s.move(state, tile, dt, [first = tile.nodes.front()](std::size_t k) { return at(first) + k; })
+      : s.move(state, tile, dt, [&](std::size_t k) { return at(tile.nodes[k]); });
 }
 
 void Tiles::move_shared(State& state, const Tile& tile, double dt) const {
