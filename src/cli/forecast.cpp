@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "crackle/core/errors.hpp"
-#include "crackle/solve/lanczos.hpp"
 #include "frames.hpp"
 
 namespace crackle {
@@ -125,7 +124,7 @@ StableStep stable_step_of(const Scene& scene) {
                   scene.stress, scene.damping);
   set_mass(state, scene.density);
   if (!scene.absorbing_boundary) fix_nodes(state, EdgeKind::outer);
-  if (!scene.law) return sharpened(stable_step(state, bulk, nullptr), state, bulk, nullptr);
+  if (!scene.law) return stable_step(state, bulk, nullptr);
   if (split) insert_all(state);
   std::vector<CohesiveMaterial> materials{scene.cohesive};
   materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
@@ -136,8 +135,7 @@ StableStep stable_step_of(const Scene& scene) {
   }
   const Cohesive cohesive(scene.law, std::move(materials));
   StableStep stable = stable_step(state, bulk, &cohesive);
-  if (split) return sharpened(stable, state, bulk, &cohesive);
-  stable.limit *= scene.insertion.step;
+  if (!split) stable.limit *= scene.insertion.step;
   return stable;
 }
 

@@ -295,13 +295,11 @@ void Cohesive::add_tractions(State& state) {
 
 void Cohesive::start_histories(State& state, std::span<const Index> elements) {
   for (const Index element : elements) start_history(state, element);
-  started_.insert(started_.end(), elements.begin(), elements.end());
 }
 
 void Cohesive::add_tractions(State& state, std::span<const std::vector<Index>> intact) {
   CohesiveElements& c = state.cohesive;
   newly_broken_.clear();
-  started_.clear();
   changed_ = false;
   if (c.count() == 0) return;
   std::vector<std::vector<Index>> near(intact.size());

@@ -12,7 +12,6 @@
 #include "crackle/core/parallel.hpp"
 #include "crackle/seismic/listener.hpp"
 #include "crackle/solve/equilibrium.hpp"
-#include "crackle/solve/lanczos.hpp"
 
 namespace crackle {
 namespace {
@@ -108,11 +107,8 @@ Simulation::Simulation(Scene scene)
   if (!scene_.absorbing_boundary) fix_nodes(state_, EdgeKind::outer);
   stable_ = stable_step(state_, bulk_, cohesive());
   if (!split && scene_.law) {
-    // The bounds by nodes are also what a penalty at them is chosen by: they stay.
     stable_.limit *= scene_.insertion.step;
     prepare_insertion();
-  } else {
-    stable_ = sharpened(stable_, state_, bulk_, cohesive());
   }
   if (scene_.damage.law) {
     begin_damage();
@@ -319,7 +315,7 @@ void Simulation::settle() {
 void Simulation::relax() {
   // Kinetic damping: whenever the kinetic energy has passed a peak, everything stops and starts again.
   // Well below the stable step: near it, stopping at every peak can lock into a short cycle.
-  const double dt = 0.3 * std::min(stable_.proven, stable_.limit);
+  const double dt = 0.3 * stable_.limit;
   double before = 0.0, peak = 0.0;
   // Strains of 1e-11 everywhere: with less nothing moves, as where a crack is closed by the stress.
   double nothing = 0.0;
@@ -549,9 +545,11 @@ void Simulation::move_nodes(double dt) {
 }
 
 void Simulation::heed_new_histories() {
-  if (!cohesive_ || !tiles_) return;
-  cohesive_->start_histories(state_, tiles_->near());
-  tiles_->elements_changed(state_, physics(), cohesive_->started());
+  const auto& histories = state_.cohesive.histories;
+  std::vector<Index> fresh;
+  for (; histories_known_ < histories.size(); ++histories_known_)
+    fresh.push_back(histories[histories_known_].element);
+  if (!fresh.empty()) tiles_->elements_changed(state_, physics(), fresh);
 }
 
 void Simulation::listen_to_slips() {
@@ -566,6 +564,7 @@ void Simulation::listen_to_slips() {
 void Simulation::advance(double dt, Energies* account) {
   stopwatch_.start();
   new_events_.clear();
+  heed_new_histories();
   if (cohesive_) {
     cohesive_->add_tractions(state_, tiles_->apart());
     if (!stressed_.empty()) insert_stressed();
@@ -637,7 +636,7 @@ void Simulation::advance(double dt, Energies* account) {
   state_.time += dt;
   state_.time_step = dt;
   ++state_.step;
-  heed_new_histories();
+  if (cohesive_) cohesive_->start_histories(state_, tiles_->near());
 }
 
 double Simulation::kinetic_energy(const std::vector<Vec2>& before) const {
@@ -708,7 +707,6 @@ double Simulation::imbalance() {
   double largest = 0.0;
   for (const Vec2 f : forces) largest = std::max(largest, norm(f));
   if (cohesive_) cohesive_->add_tractions(state_);
-  if (tiles_ && cohesive_) tiles_->elements_changed(state_, physics(), cohesive_->started());
   if (fluid_) fluid_->add_corner_forces(state_, forces);
   std::vector<Vec2> sum(at(state_.node_count()));
   if (boundary_) boundary_->add_loads(sum);

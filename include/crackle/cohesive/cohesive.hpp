@@ -47,8 +47,6 @@ class Cohesive {
   /// Gives intact elements that are near their strength a history: from now on they are evaluated point by
   /// point. @param elements in ascending order
   void start_histories(State& state, std::span<const Index> elements);
-  /// Elements that got a history since the last add_tractions() began.
-  std::span<const Index> started() const { return started_; }
 
   /// Elements broken by the last add_tractions(), in ascending order.
   std::span<const Index> newly_broken() const { return newly_broken_; }
@@ -106,7 +104,7 @@ class Cohesive {
 
   std::shared_ptr<const CohesiveLaw> law_;
   std::vector<CohesiveMaterial> materials_;
-  std::vector<Index> newly_broken_, started_;
+  std::vector<Index> newly_broken_;
   bool changed_ = false;
 };
 

@@ -201,6 +201,7 @@ class Simulation {
   Stopwatch stopwatch_;
   std::vector<SeismicEvent> new_events_;
   std::optional<Tiles> tiles_;
+  std::size_t histories_known_ = 0;  // to the tiles
   std::vector<Vec2> velocity_before_;
   StressScreen screen_;                 // on demand: near the threshold
   std::vector<std::uint8_t> stressed_;  // per triangle, of the last step

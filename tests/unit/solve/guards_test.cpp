@@ -90,12 +90,13 @@ TEST(Guards, FindRockThatBreaksWhereNothingPulls) {
       state.displacement[at(state.cohesive.nodes[at(e)][k])] += k < 2 ? -away : away;
     }
   }
-  simulation.step(0.1 * simulation.stable_limit());
+  // In the first step they are found near their strength, in the second they break.
+  for (int i = 0; i < 2; ++i) simulation.step(0.001 * simulation.stable_limit());
   const auto found = guards.after_step(simulation);
   std::printf("%zu pulled, %ld stray\n", pulled.size(), static_cast<long>(guards.memory().stray));
   ASSERT_TRUE(has(found, Alarm::stray_breaks));
   std::printf("%s\n", found.front().text.c_str());
-  EXPECT_THAT(found.front().text, testing::AllOf(HasSubstr("element"), HasSubstr(") m, at step 1,")));
+  EXPECT_THAT(found.front().text, testing::AllOf(HasSubstr("element"), HasSubstr(") m, at step 2,")));
 }
 
 TEST(Guards, FindLargeMotionAndCrushedTriangles) {
