@@ -293,8 +293,16 @@ void Cohesive::add_tractions(State& state) {
   add_tractions(state, intact);
 }
 
-void Cohesive::start_histories(State& state, std::span<const Index> elements) {
-  for (const Index element : elements) start_history(state, element);
+void Cohesive::start_histories(State& state, std::span<const Index> elements, double before) {
+  for (const Index element : elements) {
+    const auto nodes = state.cohesive.nodes[at(element)];
+    std::array<Vec2, 4> now;
+    for (std::size_t k = 0; k < 4; ++k) now[k] = state.displacement[at(nodes[k])];
+    for (std::size_t k = 0; k < 4; ++k)
+      state.displacement[at(nodes[k])] = now[k] - before * state.velocity[at(nodes[k])];
+    start_history(state, element);
+    for (std::size_t k = 0; k < 4; ++k) state.displacement[at(nodes[k])] = now[k];
+  }
 }
 
 void Cohesive::add_tractions(State& state, std::span<const std::vector<Index>> intact) {
@@ -307,7 +315,7 @@ void Cohesive::add_tractions(State& state, std::span<const std::vector<Index>> i
     elastic_elements(state.displacement.data(), c, materials_.data(), law_->curvature(), intact[at(part)],
                      near[at(part)]);
   });
-  for (const auto& elements : near) start_histories(state, elements);
+  for (const auto& elements : near) start_histories(state, elements, 0.0);
   // Elements with a history, one by one.
   const Index active = static_cast<Index>(c.histories.size());
   std::vector<Dissipation> partial(at(block_count(active)));

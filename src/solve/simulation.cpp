@@ -636,7 +636,7 @@ void Simulation::advance(double dt, Energies* account) {
   state_.time += dt;
   state_.time_step = dt;
   ++state_.step;
-  if (cohesive_) cohesive_->start_histories(state_, tiles_->near());
+  if (cohesive_) cohesive_->start_histories(state_, tiles_->near(), dt);
 }
 
 double Simulation::kinetic_energy(const std::vector<Vec2>& before) const {

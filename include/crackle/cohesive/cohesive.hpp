@@ -45,8 +45,9 @@ class Cohesive {
   void add_tractions(State& state, std::span<const std::vector<Index>> intact);
 
   /// Gives intact elements that are near their strength a history: from now on they are evaluated point by
-  /// point. @param elements in ascending order
-  void start_histories(State& state, std::span<const Index> elements);
+  /// point, first from where they were some time [s] before, when that was seen, so that what they have done
+  /// since is booked. @param elements in ascending order
+  void start_histories(State& state, std::span<const Index> elements, double before);
 
   /// Elements broken by the last add_tractions(), in ascending order.
   std::span<const Index> newly_broken() const { return newly_broken_; }

@@ -8,7 +8,7 @@
 namespace crackle {
 
 /// An element gets a history a little before it can yield, so that its first damage is booked whole.
-inline constexpr double near_strength = 0.9;
+inline constexpr double near_strength = 0.95;
 
 template <class M>
 struct ElasticLimits {

@@ -253,6 +253,13 @@ void Tiles::number_corners(const State& state, const Bulk& bulk, Index i) {
       tile.corners[at((3 * p.group + k) * lanes + p.lane)] =
           real ? tile.name(state.node_of_corner[at(3 * (tile.begin + t) + k)]) : tile.dummy(k);
     }
+    if (real && !uniform) {
+      const Sym2 stress = bulk.in_situ(tile.begin + t);
+      Row* rows = &tile.in_situ[at(3 * p.group)];
+      rows[0].lane[at(p.lane)] = stress.xx;
+      rows[1].lane[at(p.lane)] = stress.yy;
+      rows[2].lane[at(p.lane)] = stress.xy;
+    }
     if (real && bulk.viscous()) tile.viscosity[at(p.group)].lane[at(p.lane)] = bulk.viscosity(tile.begin + t);
   }
 }
