@@ -30,8 +30,8 @@ TEST(ResolvedToml, HoldsEveryKeyOnce) {
   const std::string text = resolved_toml(
       read_case(good_path, {"damping.viscosity=3", "output.fields=['a']", "rock.young_modulus_normal=30e9",
                             "fluid.cavitation_pressure=0", "well.breakdown_pressure=70e6"}));
-  // absent: a list of included files, the damping that was not chosen, a mesh file
-  const std::set<std::string> absent = {"include", "ratio", "file"};
+  // absent: a list of included files, the damping that was not chosen, a mesh file, what starts damage
+  const std::set<std::string> absent = {"include", "ratio", "file", "initiation"};
   for (const CaseKey& key : case_keys()) {
     if (key.table.starts_with("joint")) continue;  // lists that may be empty: case_joints_test.cpp
     EXPECT_EQ(text.find("\n" + key.key + " = ") == std::string::npos, absent.contains(key.key)) << key.key;
