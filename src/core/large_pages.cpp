@@ -11,7 +11,7 @@
 
 namespace crackle {
 
-void use_large_pages([[maybe_unused]] std::vector<std::span<const std::byte>> arrays) {
+void use_large_pages([[maybe_unused]] const std::vector<std::span<const std::byte>>& arrays) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
   constexpr int collapse = 25;                    // MADV_COLLAPSE, Linux 6.1: at once, not some day
@@ -23,7 +23,8 @@ void use_large_pages([[maybe_unused]] std::vector<std::span<const std::byte>> ar
   }
   for (const auto& [p, bytes] : used) {
     if (bytes < page / 4) continue;
-    void* const where = reinterpret_cast<void*>(p * page);
+    // The start of a page, which no pointer that there is need point to.
+    void* const where = reinterpret_cast<void*>(p * page);  // NOLINT(performance-no-int-to-ptr)
     (void)madvise(where, page, MADV_HUGEPAGE);
     (void)madvise(where, page, collapse);
   }

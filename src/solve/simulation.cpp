@@ -499,6 +499,7 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
   if (edges.empty()) return;
   const double floor = 0.1 * scene_.stiffness.c66;
   std::vector<double> penalty;
+  penalty.reserve(edges.size());
   for (const Index e : edges) {
     // Where a sliver leaves no room the step gives way instead.
     penalty.push_back(std::min(cohesive_->materials()[material].penalty,

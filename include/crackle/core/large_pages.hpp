@@ -11,6 +11,6 @@ namespace crackle {
 /// so that their addresses are looked up seldom. Nothing but speed changes; where it cannot be had nothing
 /// happens. A page is taken if a quarter of it belongs to the arrays: small ones that lie close together
 /// count together.
-void use_large_pages(std::vector<std::span<const std::byte>> arrays);
+void use_large_pages(const std::vector<std::span<const std::byte>>& arrays);
 
 }  // namespace crackle

@@ -132,7 +132,7 @@ class Damage {
   struct Spent {
     double fracture = 0.0, friction = 0.0;
   };
-  Spent evaluate(const State& state, const Bulk& bulk, DamagedTriangle& crack) const;
+  Spent evaluate(const State& state, const Bulk& bulk, DamagedTriangle& d) const;
   DamagedTriangle make(const State& state, const Bulk& bulk, Index triangle, Vec2 normal) const;
 
   std::shared_ptr<const SofteningLaw> law_;

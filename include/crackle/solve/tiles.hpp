@@ -58,11 +58,11 @@ class Tiles {
   struct Scratch;
   struct Reads;
 
-  void number_nodes(const State& state, Index tile);
-  void number_corners(const State& state, const Bulk& bulk, Index tile);
-  void list_elements(const State& state, const Cohesive* cohesive, Index tile);
-  void link(const State& state, Index tile);
-  void work(State& state, const Physics& physics, Index tile, double dt, const StressScreen& screen,
+  void number_nodes(const State& state, Index i);
+  void number_corners(const State& state, const Bulk& bulk, Index i);
+  void list_elements(const State& state, const Cohesive* cohesive, Index i);
+  void link(const State& state, Index i);
+  void work(State& state, const Physics& physics, Index i, double dt, const StressScreen& screen,
             std::span<std::uint8_t> stressed, std::span<char> tile_stressed);
   void move_shared(State& state, const Tile& tile, double dt) const;
 

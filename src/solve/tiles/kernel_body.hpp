@@ -146,6 +146,8 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
 
 }  // namespace
 
+// One file a level includes this.
+// NOLINTBEGIN(misc-definitions-in-headers)
 namespace CRACKLE_LEVEL {
 
 void rock(const RockWork& w) {
@@ -191,4 +193,5 @@ void elements(const ElementWork& w) {
 }
 
 }  // namespace CRACKLE_LEVEL
+// NOLINTEND(misc-definitions-in-headers)
 }  // namespace crackle::tiles
