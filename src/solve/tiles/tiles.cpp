@@ -191,7 +191,7 @@ Tiles::Tiles(const State& state, const Physics& physics)
       arrays.push_back(std::as_bytes(std::span(from, to)));
     }
   }
-  use_large_pages(std::move(arrays));
+  use_large_pages(arrays);
 }
 
 void Tiles::number_nodes(const State& state, Index i) {
