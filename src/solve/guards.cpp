@@ -13,6 +13,7 @@ namespace {
 constexpr double energy_made_warning = 0.02, energy_made_stop = 0.2;  // over what was dissipated
 constexpr double negative_kinetic = 0.01;                             // over the largest energy
 constexpr double borne_by_stray = 0.5;                                // of the strength
+constexpr double fracture_damage = 0.5;                               // of an element in a cohesive zone
 constexpr std::int64_t few_strays = 5;                                // no alarm up to here,
 constexpr double strays_of_broken = 0.02;                             // nor up to this share
 constexpr double motion_per_step = 0.02;                              // of an edge
@@ -51,7 +52,17 @@ double shortest_side(const Mesh& mesh, Index triangle) {
   return shortest;
 }
 
-// Triangles round one end of an edge, and whether any other edge there is open: a boundary or broken.
+// Broken, or in the cohesive zone of a fracture: within it elements break in any order.
+bool softens(const State& state, Index element) {
+  if (state.cohesive.status[at(element)] >= CohesiveStatus::broken) return true;
+  const Index history = state.cohesive.history_of[at(element)];
+  if (history < 0) return false;
+  const auto& points = state.cohesive.histories[at(history)].point;
+  return std::ranges::any_of(points, [](const CohesivePoint& p) { return p.damage > fracture_damage; });
+}
+
+// Triangles round one end of an edge, and whether any other edge there is open: a boundary, broken or
+// softening.
 struct Surroundings {
   std::vector<Index> triangles;
   bool open = false;
@@ -70,10 +81,8 @@ void add_round_vertex(const State& state, Index edge, Index vertex, Surroundings
       }
       if (next == edge) break;  // all the way round
       const Index element = state.cohesive.of_edge[at(next)];
-      if (mesh.edges[at(next)].kind != EdgeKind::interior ||
-          (element >= 0 && state.cohesive.status[at(element)] >= CohesiveStatus::broken)) {
+      if (mesh.edges[at(next)].kind != EdgeKind::interior || (element >= 0 && softens(state, element)))
         round.open = true;
-      }
       if (mesh.edges[at(next)].kind != EdgeKind::interior) break;
       const auto& sides = mesh.edges[at(next)].triangle;
       t = sides[0] == t ? sides[1] : sides[0];

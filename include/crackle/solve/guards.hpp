@@ -6,8 +6,10 @@
 //                     what broke and rubbed, a stop from 20 %
 //   grid oscillation  ½ Σ m v(n−½)·v(n+½) below −1 % of the largest energy: velocities change sign from step
 //                     to step, as at the highest frequency of the mesh and above
-//   stray break       an element breaks that touches no fracture and no free face, in rock that bears less
-//                     than half its strength (mean over the triangles round it); five, and 2 % of the broken
+//   stray break       an element breaks that touches no fracture, cohesive zone or free face, in rock that
+//   bears
+//                     less than half its strength (mean over the triangles round it); five, and 2 % of the
+//                     broken
 //   large motion      a node moves by more than 2 % of an edge of its triangle in one step
 //   crushed triangle  one with less than a fifth of its area left
 //   energy residual   of the ledger: a warning from 1e-3, a stop from 1e-2

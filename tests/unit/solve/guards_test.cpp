@@ -74,7 +74,8 @@ TEST(Guards, FindRockThatBreaksWhereNothingPulls) {
   Simulation simulation(block());
   Guards guards(simulation);
   State& state = simulation.state();
-  // Elements far from one another and from the sides, each pulled open by itself.
+  // Elements far from one another and from the sides, each pulled open by itself, its neighbours by less than
+  // half.
   std::vector<Index> pulled;
   for (Index e = 0; e < state.cohesive.count(); ++e) {
     const Vec2 x = Cohesive::place(state, e);
@@ -86,7 +87,7 @@ TEST(Guards, FindRockThatBreaksWhereNothingPulls) {
     pulled.push_back(e);
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec2 along = state.cohesive.direction[at(e)];
-      const Vec2 away = (1e-5 / norm(along)) * right_normal(along);
+      const Vec2 away = (3e-6 / norm(along)) * right_normal(along);
       state.displacement[at(state.cohesive.nodes[at(e)][k])] += k < 2 ? -away : away;
     }
   }
