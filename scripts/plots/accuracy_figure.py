@@ -16,8 +16,8 @@ PANELS = [  # (title, {question: (quantity, filled)}, label of the error)
      "quasi-static cohesive theory (12.45 MPa; paper preset: 12.90)"),
     ("c  Pumped crack: pressure and length", {"straight": ("pressure", True), "free": ("half_length", False)},
      "filled: pressure, straight path · hollow: half-length, free path"),
-    ("d  Energy per advance of the crack", {"straight": ("energy_per_advance_J_m2", True),
-                                            "free": ("energy_per_advance_J_m2", False)},
+    ("d  Energy dissipated per area of the crack", {"straight": ("energy_per_area_J_m2", True),
+                                                    "free": ("energy_per_area_J_m2", False)},
      "filled: straight path · hollow: free path"),
 ]
 COLORS = ["#111111", "#c9a227", "#e08e00", "#d7263d", "#8e1b3a", "#7b4fa3", "#1f6fb2", "#2a9d8f", "#7fb2d9", "#5c6f82",

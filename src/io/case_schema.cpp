@@ -178,7 +178,7 @@ std::vector<TableSpec> make_tables() {
       choice("insertion", slot<&C::cohesive, &C::Cohesive::insertion>(), {"all", "on_demand", "none"}, "which edges carry a cohesive element; none: the rock breaks by smeared damage"),
       number("threshold", slot<&C::cohesive, &C::Cohesive::threshold>(), plain, fraction, Need::never, "share of its strength at which an edge gets its element on demand"),
       choice("compliance", slot<&C::cohesive, &C::Cohesive::compliance>(), {"kept", "compensated"}, "of the elements on all edges: kept, or made up for by stiffer triangles"),
-      number("mixed_mode_exponent", slot<&C::cohesive, &C::Cohesive::mixed_mode_exponent>(), plain, positive, Need::never, "of benzeggagh_kenane: fracture energy rises from mode 1 to mode 2 by the share of sliding to this power; with 4 a path that zigzags through the mesh costs little more than a straight one"),
+      number("mixed_mode_exponent", slot<&C::cohesive, &C::Cohesive::mixed_mode_exponent>(), plain, positive, Need::never, "of benzeggagh_kenane: fracture energy rises from mode 1 to mode 2 by the share of sliding to this power; with 4 a path that zigzags through the mesh dissipates 5 % more per area than a straight one, with 2 some 30 %"),
       number("penalty", slot<&C::cohesive, &C::Cohesive::penalty>(), pressure, not_negative, Need::never, "stiffness times edge length before softening", "20 rock.young_modulus"),
     }},
     {"damage", {

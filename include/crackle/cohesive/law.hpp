@@ -54,7 +54,7 @@ struct CohesiveMaterial {
   double penalty = 0.0;
   double tangential_penalty = 0.0;
   Calibration calibration = Calibration::exact;
-  double mixed_mode_exponent = 2.0;  ///< η of "benzeggagh_kenane" [-]
+  double mixed_mode_exponent = 4.0;  ///< η of "benzeggagh_kenane" [-]
 };
 
 /// A traction-separation law.

@@ -107,7 +107,7 @@ struct Case {
     std::string insertion = "on_demand";  ///< "on_demand", "all" edges from the start, or "none": see damage
     double threshold = 0.7;               ///< of its strength, where an edge gets its element on demand [-]
     std::string compliance = "kept";      ///< of the elements: "kept", or "compensated" by stiffer triangles
-    double mixed_mode_exponent = 2.0;     ///< of benzeggagh_kenane: how late sliding costs more [-]
+    double mixed_mode_exponent = 4.0;     ///< of benzeggagh_kenane: how late sliding costs more [-]
     double penalty = 0.0;                 ///< stiffness times edge length [Pa]; 0: 20 Young's moduli
   } cohesive;
 
