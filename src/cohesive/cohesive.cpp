@@ -101,6 +101,16 @@ CRACKLE_KERNEL void elastic_elements(const Vec2* u, CohesiveElements& elements,
   }
 }
 
+// In the exact calibration a point has what its insertion gave it on top of the fracture energies, in
+// whichever mode it breaks, so that the fracture energy is left when that is paid back.
+CohesiveMaterial at_point(CohesiveMaterial m, const CohesivePoint& p) {
+  if (m.calibration == Calibration::exact && p.inserted > 0.0) {
+    m.fracture_energy_mode1 += p.inserted;
+    m.fracture_energy_mode2 += p.inserted;
+  }
+  return m;
+}
+
 double utilisation_of(const CohesiveMaterial& m, double normal, double shear) {
   const double pull = std::max(normal, 0.0) / m.tensile_strength;
   const double push = shear / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
@@ -120,10 +130,6 @@ CohesiveMaterial Cohesive::material(const State& state, Index element) const {
   if (h.penalty > 0.0) {
     m.penalty = h.penalty;
     m.tangential_penalty = std::min(m.tangential_penalty, h.penalty);
-  }
-  if (m.calibration == Calibration::exact) {
-    m.fracture_energy_mode1 += h.inserted_mode1;
-    m.fracture_energy_mode2 += h.inserted_mode2;
   }
   return m;
 }
@@ -175,7 +181,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   int failed = 0;
   bool yielding = false;
   for (std::size_t q = 0; q < 3; ++q) {
-    law_->move(material, length, opening[q], slip[q], h.point[q]);
+    law_->move(at_point(material, h.point[q]), length, opening[q], slip[q], h.point[q]);
     yielding = yielding || h.point[q].damage > 0.0;
     failed += h.point[q].damage >= 1.0;
   }
@@ -183,7 +189,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     // The third point gives up at once what it still bears.
     for (std::size_t q = 0; q < 3; ++q) {
       h.point[q].damage = 1.0;
-      law_->move(material, length, opening[q], slip[q], h.point[q]);
+      law_->move(at_point(material, h.point[q]), length, opening[q], slip[q], h.point[q]);
     }
     c.status[i] = CohesiveStatus::broken;
     h.break_time = state.time;
@@ -191,7 +197,7 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   double fracture = 0.0, sliding = 0.0, friction = 0.0, made = 0.0;
   h.slid = 0.0;
   for (std::size_t q = 0; q < 3; ++q) {
-    const CohesivePoint& p = h.point[q];
+    CohesivePoint& p = h.point[q];
     if (p.damage == 0.0) continue;
     h.slid += weight[q] / length * (p.plastic_slip - old[q].plastic_slip);
     // Trapezoidal work of the step is the work the integrator does (energies at full steps).
@@ -199,8 +205,11 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     const double normal_work = 0.5 * (p.normal + old[q].normal) * (p.opening - old[q].opening);
     const double shear_work = 0.5 * (p.shear + old[q].shear) * d_slip;
     const double friction_work = 0.5 * (p.friction + old[q].friction) * d_slip;
-    const double dissipated =
-        normal_work + shear_work + friction_work - (p.recoverable() - old[q].recoverable());
+    const double lost = normal_work + shear_work + friction_work - (p.stored - old[q].stored);
+    const double paid = std::clamp(lost, 0.0, std::max(p.inserted - p.repaid, 0.0));
+    // What a point that breaks early still owes shows in the residual.
+    p.repaid = c.status[i] == CohesiveStatus::active ? p.repaid + paid : std::max(p.repaid, p.inserted);
+    const double dissipated = lost - paid;
     const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
     const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
     // Never negative: what a step would gain is left to the ledger's residual, and to the guards.
@@ -257,7 +266,6 @@ void Cohesive::load_springs(State& state, Index element) const {
   const double length = norm(c.direction[at(element)]);
   const CohesiveMaterial m = material(state, element);
   const EndSeparation w = separation(state, element);
-  h.inserted_mode1 = h.inserted_mode2 = 0.0;
   for (std::size_t q = 0; q < 3; ++q) {
     CohesivePoint& p = h.point[q];
     const double before = p.stored;
@@ -270,11 +278,6 @@ void Cohesive::load_springs(State& state, Index element) const {
                         : 0.5 * (w.slip0 + w.slip1),
                p);
     p.inserted += p.stored - before;
-    const double across = elastic_energy(m.penalty / length, law_->curvature(), m.tensile_strength,
-                                         m.cohesion, m.tan_friction, p.opening, 0.0);
-    const double weight = q == 2 ? 4.0 / 6.0 : 1.0 / 6.0;
-    if (p.opening > 0.0) h.inserted_mode1 += weight * across;
-    h.inserted_mode2 += weight * std::max(0.0, p.stored - across);
   }
   const auto& p = h.point;
   c.force[at(element)] =
@@ -348,7 +351,10 @@ void Cohesive::cut(State& state, Index element) const {
   CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
   h.element = element;
   h.break_time = state.time;
-  for (CohesivePoint& p : h.point) p.damage = 1.0;
+  for (CohesivePoint& p : h.point) {
+    p.damage = 1.0;
+    p.inserted = 0.0;
+  }
   c.status[at(element)] = CohesiveStatus::broken;
 }
 
@@ -364,6 +370,7 @@ bool Cohesive::unbond(State& state, Index element) const {
     const double held = std::max(-p.normal, 0.0) * m.tan_residual;
     gives = gives || p.normal > 0.0 || std::abs(shear) > (1.0 + 1e-12) * held;
     p.damage = 1.0;
+    p.inserted = 0.0;
     p.plastic_slip = p.slip - shear / stiffness;
   }
   h.break_time = state.time;

@@ -33,8 +33,7 @@ class Cohesive {
 
   const CohesiveLaw& law() const { return *law_; }
   const std::vector<CohesiveMaterial>& materials() const { return materials_; }
-  /// Material of an element, with the penalty it was inserted with and, in the exact calibration, the
-  /// energy that its insertion gave it on top of the fracture energies.
+  /// Material of an element, with the penalty it was inserted with.
   CohesiveMaterial material(const State& state, Index element) const;
 
   /// Evaluates all elements: writes their end forces, grows damage, books dissipation to the state

@@ -42,6 +42,7 @@ void members(CohesivePoint& p, V&& v) {
   v("friction", p.friction);
   v("stored", p.stored);
   v("inserted", p.inserted);
+  v("repaid", p.repaid);
 }
 
 template <class V>
@@ -49,8 +50,6 @@ void members(CohesiveHistory& h, V&& v) {
   v("element", h.element);
   v("point", h.point);
   v("penalty", h.penalty);
-  v("inserted_mode1", h.inserted_mode1);
-  v("inserted_mode2", h.inserted_mode2);
   v("fracture_energy", h.fracture_energy);
   v("sliding_work", h.sliding_work);
   v("friction_energy", h.friction_energy);

@@ -35,11 +35,12 @@ struct CohesivePoint {
   double shear = 0.0;     ///< cohesive part of the traction along [Pa]
   double friction = 0.0;  ///< frictional part of the traction along [Pa]
   double stored = 0.0;    ///< recoverable energy [J/m2]
-  double inserted = 0.0;  ///< part of it that the spring was given when it was inserted under load [J/m2]
+  double inserted = 0.0;  ///< given to the spring when it was inserted under load [J/m2]
+  double repaid = 0.0;    ///< of it, paid back by breaking [J/m2]
 
-  /// Recoverable energy that came from the rock [J/m2]: what the insertion gave is taken back as damage
-  /// grows, so that neither inserting nor breaking makes energy.
-  double recoverable() const { return stored - (1.0 - damage) * inserted; }
+  /// Recoverable energy that came from the rock [J/m2]. What insertion gave, and the rock may have had from
+  /// the spring since, the breaking pays back before it dissipates: neither makes energy.
+  double recoverable() const { return stored - inserted + repaid; }
 };
 
 /// History of one active or broken cohesive element.
@@ -47,8 +48,6 @@ struct CohesiveHistory {
   Index element = -1;
   std::array<CohesivePoint, 3> point;
   double penalty = 0.0;           ///< of its springs [Pa]; 0: its material's
-  double inserted_mode1 = 0.0;    ///< energy that insertion gave the springs, in opening [J/m2]
-  double inserted_mode2 = 0.0;    ///< and in slip [J/m2]
   double fracture_energy = 0.0;   ///< dissipated by breaking [J/m]
   double sliding_work = 0.0;      ///< part of fracture_energy done in shear [J/m]
   double friction_energy = 0.0;   ///< dissipated by friction [J/m]
