@@ -106,6 +106,7 @@ void set_joints(const Case& scene, Scene& solver_scene) {
     material.penalty = *joint.normal_penalty;
     material.tangential_penalty = *joint.tangential_penalty;
     material.tan_residual = std::tan(*joint.residual_friction_angle);
+    material.bedding = {};
     if (bonded.back()) {
       material.tensile_strength = *joint.tensile_strength;
       material.cohesion = *joint.cohesion;

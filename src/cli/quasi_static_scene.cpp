@@ -47,6 +47,9 @@ RegimeChoice choose_regime(const Case& scene) {
   if (choice.quasi_static) {
     require(scene.fracture.notch > 0.0, scene, "it starts from a fracture: give fracture.notch");
     require(scene.mesh.file.empty(), scene, "meshes from a file are not yet taken");
+    require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&
+                !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
+            scene, "strengths along the bedding are not yet taken");
     require(scene.joints.empty() && scene.joint_sets.empty(), scene, "joints are not yet taken");
     require(scene.cohesive.insertion != "none", scene,
             "it needs cohesive elements: cohesive.insertion = \"none\" has none");

@@ -13,6 +13,19 @@ namespace {
 // Below this a triangle would set the time step of the whole run, or nearly have no area.
 constexpr double smallest_angle_deg = 5.0;
 
+Bedding bedding_of(const Case::Rock& rock) {
+  if (!rock.tensile_strength_bedding && !rock.cohesion_bedding && !rock.fracture_energy_mode1_bedding &&
+      !rock.fracture_energy_mode2_bedding) {
+    return {};
+  }
+  return {{-std::sin(rock.bedding_angle), std::cos(rock.bedding_angle)},
+          rock.bedding_exponent,
+          rock.tensile_strength_bedding.value_or(rock.tensile_strength),
+          rock.cohesion_bedding.value_or(rock.cohesion),
+          rock.fracture_energy_mode1_bedding.value_or(rock.fracture_energy_mode1),
+          rock.fracture_energy_mode2_bedding.value_or(rock.fracture_energy_mode2)};
+}
+
 void set_damage(const Case& scene, Scene& s) {
   s.damage.law = find_softening(scene.damage.law);
   DamageMaterial m;
@@ -24,6 +37,7 @@ void set_damage(const Case& scene, Scene& s) {
   m.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
   m.apply(scene.damage.preset == "faithful" ? DamagePreset::faithful : DamagePreset::recommended);
   m.initiation = *find_initiation(scene.damage.initiation);
+  m.bedding = bedding_of(scene.rock);
   s.damage.materials = {m};
 }
 
@@ -80,6 +94,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.cohesive.tan_residual = std::tan(scene.contact.friction_angle);
   s.cohesive.fracture_energy_mode1 = scene.rock.fracture_energy_mode1;
   s.cohesive.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
+  s.cohesive.bedding = bedding_of(scene.rock);
   s.cohesive.penalty = scene.cohesive.penalty;
   s.cohesive.tangential_penalty = scene.contact.tangential_penalty;
   s.cohesive.mixed_mode_exponent = scene.cohesive.mixed_mode_exponent;

@@ -35,6 +35,11 @@ inline EndForces end_forces(Vec2 t, double sixth, double n0, double s0, double n
   return {{p0 * t.y + q0 * t.x, -p0 * t.x + q0 * t.y}, {p1 * t.y + q1 * t.x, -p1 * t.x + q1 * t.y}};
 }
 
+// Of an element in the reference state.
+Vec2 normal_of(const CohesiveElements& c, std::size_t element) {
+  return right_normal(c.inverse_length[element] * c.direction[element]);
+}
+
 // Intact elements are evaluated in chunks that are first laid out component by component, so that it
 // vectorises.
 constexpr int chunk = 64;
@@ -89,7 +94,8 @@ CRACKLE_KERNEL void elastic_elements(const Vec2* u, CohesiveElements& elements,
       c.inverse_length[i] = elements.inverse_length[e];
       const std::array<double, 4>& o = elements.offset[e];
       c.o0[i] = o[0], c.s0[i] = o[1], c.o1[i] = o[2], c.s1[i] = o[3];
-      const CohesiveMaterial& m = materials[elements.material[e]];
+      const CohesiveMaterial& rock = materials[elements.material[e]];
+      const CohesiveMaterial m = rock.bedding ? on_plane(rock, normal_of(elements, e)) : rock;
       c.penalty[i] = m.penalty, c.tensile_strength[i] = m.tensile_strength;
       c.cohesion[i] = m.cohesion, c.tan_friction[i] = m.tan_friction;
     }
@@ -124,7 +130,7 @@ Cohesive::Cohesive(std::shared_ptr<const CohesiveLaw> law, std::vector<CohesiveM
 
 CohesiveMaterial Cohesive::material(const State& state, Index element) const {
   const CohesiveElements& c = state.cohesive;
-  CohesiveMaterial m = materials_[c.material[at(element)]];
+  CohesiveMaterial m = on_plane(materials_[c.material[at(element)]], normal_of(c, at(element)));
   if (c.history_of[at(element)] < 0) return m;
   const CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
   if (h.penalty > 0.0) {
@@ -134,13 +140,14 @@ CohesiveMaterial Cohesive::material(const State& state, Index element) const {
   return m;
 }
 
-double Cohesive::utilisation(const CohesiveMaterial& m, Sym2 stress, Vec2 along) {
+double Cohesive::utilisation(const CohesiveMaterial& rock, Sym2 stress, Vec2 along) {
+  const CohesiveMaterial m = on_plane(rock, right_normal(along));
   const Vec2 traction = stress * right_normal(along);
   return utilisation_of(m, dot(traction, right_normal(along)), dot(traction, along));
 }
 
 double Cohesive::utilisation(const State& state, const CohesiveHistory& h) const {
-  const CohesiveMaterial& m = materials_[state.cohesive.material[at(h.element)]];
+  const CohesiveMaterial m = material(state, h.element);
   double most = 0.0;
   for (const CohesivePoint& p : h.point) {
     most = std::max(most, p.damage > 0.0 ? 1.0 : utilisation_of(m, p.normal, p.shear + p.friction));
@@ -390,7 +397,7 @@ double Cohesive::stored_energy(const State& state) const {
         sum += length / 6.0 * (p[0].recoverable() + p[1].recoverable() + 4.0 * p[2].recoverable());
         continue;
       }
-      const CohesiveMaterial& m = materials_[c.material[at(i)]];
+      const CohesiveMaterial m = material(state, i);
       const EndSeparation w = separation(state, i);
       const auto energy = [&](double opening, double slip) {
         return elastic_energy(m.penalty / length, curvature, m.tensile_strength, m.cohesion, m.tan_friction,

@@ -114,12 +114,23 @@ void finish_pump(Case& scene, const GivenKeys& given) {
   std::ranges::stable_sort(pump, {}, &Case::PumpStage::from);
 }
 
+bool has_bedding_strength(const Case::Rock& rock) {
+  return rock.tensile_strength_bedding || rock.cohesion_bedding || rock.fracture_energy_mode1_bedding ||
+         rock.fracture_energy_mode2_bedding;
+}
+
 void finish_bedding(Case::Rock& rock, const GivenKeys& given) {
+  if (rock.bedding_exponent != 1.0 && !has_bedding_strength(rock)) {
+    fail(given.place("rock.bedding_exponent"),
+         "rock.bedding_exponent has nothing to interpolate: give rock.tensile_strength_bedding or another "
+         "value "
+         "along the bedding");
+  }
   if (!rock.young_modulus_normal && !rock.poisson_ratio_normal && !rock.shear_modulus_normal) {
-    if (rock.bedding_angle != 0.0) {
+    if (rock.bedding_angle != 0.0 && !has_bedding_strength(rock)) {
       fail(given.place("rock.bedding_angle"),
            "rock.bedding_angle turns nothing: the rock is the same in all directions until it has a "
-           "rock.young_modulus_normal or another modulus across the bedding");
+           "rock.young_modulus_normal or another modulus across the bedding, or a strength along it");
     }
     return;
   }

@@ -170,6 +170,11 @@ std::vector<TableSpec> make_tables() {
       number("poisson_ratio_normal", slot<&C::rock, &C::Rock::poisson_ratio_normal>(), plain, poisson, Need::never, "strain along the bedding under stress across it", "rock.poisson_ratio, in bedded rock"),
       number("shear_modulus_normal", slot<&C::rock, &C::Rock::shear_modulus_normal>(), pressure, stiffness, Need::never, "shear modulus across the bedding", "that of Saint-Venant, in bedded rock"),
       number("bedding_angle", slot<&C::rock, &C::Rock::bedding_angle>(), angle, any, Need::never, "from x to the bedding, anticlockwise"),
+      number("tensile_strength_bedding", slot<&C::rock, &C::Rock::tensile_strength_bedding>(), pressure, strength, Need::never, "of planes along the bedding; between, v(a) = v + (v_bedding - v) cos^2m(a), a from the bedding's normal to the plane's", "rock.tensile_strength"),
+      number("cohesion_bedding", slot<&C::rock, &C::Rock::cohesion_bedding>(), pressure, strength, Need::never, "of planes along the bedding", "rock.cohesion"),
+      number("fracture_energy_mode1_bedding", slot<&C::rock, &C::Rock::fracture_energy_mode1_bedding>(), energy_per_area, breaking, Need::never, "of planes along the bedding", "rock.fracture_energy_mode1"),
+      number("fracture_energy_mode2_bedding", slot<&C::rock, &C::Rock::fracture_energy_mode2_bedding>(), energy_per_area, breaking, Need::never, "of planes along the bedding", "rock.fracture_energy_mode2"),
+      number("bedding_exponent", slot<&C::rock, &C::Rock::bedding_exponent>(), plain, positive, Need::never, "m: with 1 strength is linear in cos^2 of the angle (Pietruszczak and Mroz 2001), with more the rock is weak only nearer to the bedding"),
     }},
     {"cohesive", {
       choice("preset", slot<&C::cohesive, &C::Cohesive::preset>(), {"accurate", "y_geo"}, "defaults of law, calibration and insertion; \"y_geo\": evans_marathe, y_geo, all edges, as in Y-Geo"),

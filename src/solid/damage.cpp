@@ -129,8 +129,9 @@ void DamageMaterial::apply(DamagePreset preset) {
   element_length = faithful ? ElementLength::chord : ElementLength::oliver;
 }
 
-std::array<double, 2> size_limits(const DamageMaterial& m, const SofteningLaw& law,
+std::array<double, 2> size_limits(const DamageMaterial& rock, const SofteningLaw& law,
                                   const PlaneStiffness& stiffness, Vec2 normal) {
+  const DamageMaterial m = on_plane(rock, normal);
   const CrackFrame a(stiffness, normal);
   const double factor = law.size_factor();
   return {factor * m.fracture_energy_mode1 * a.nn / (m.tensile_strength * m.tensile_strength),
@@ -139,7 +140,8 @@ std::array<double, 2> size_limits(const DamageMaterial& m, const SofteningLaw& l
 
 namespace {
 
-StressScreen screen_of(const DamageMaterial& m) {
+StressScreen screen_of(const DamageMaterial& rock) {
+  const DamageMaterial m = weakest_plane(rock);
   constexpr double never = 1e300;
   switch (m.initiation) {
     case Initiation::principal:
@@ -212,7 +214,7 @@ Index Damage::initiate(State& state, const Bulk& bulk, std::span<const Index> ca
 void Damage::crack(State& state, const Bulk& bulk, Index t, const CrackStart& start) const {
   DamagedTriangle d = make(state, bulk, t, start.normal);
   const CrackFrame a(bulk.stiffness(), start.normal);
-  const DamageMaterial& m = material(t);
+  const DamageMaterial m = on_plane(material(t), start.normal);
   d.strength = {m.tensile_strength, start.cohesion};
   const std::array<double, 2> energy{m.fracture_energy_mode1, m.fracture_energy_mode2};
   const std::array<double, 2> stiffness{a.nn, a.ss};
@@ -252,7 +254,8 @@ void Damage::crack(State& state, const Bulk& bulk, Index t, const CrackStart& st
 
 void Damage::cut(State& state, const Bulk& bulk, Index triangle, Vec2 normal) const {
   DamagedTriangle d = make(state, bulk, triangle, normal);
-  d.strength = {material(triangle).tensile_strength, material(triangle).cohesion};
+  const DamageMaterial m = on_plane(material(triangle), normal);
+  d.strength = {m.tensile_strength, m.cohesion};
   d.history = {law_->end(), law_->end()};
   d.failed = 1;
   d.open = 1;
@@ -267,7 +270,7 @@ Damage::Spent Damage::evaluate(const State& state, const Bulk& bulk, DamagedTria
   const double area = bulk.area(d.triangle);
   const Sym2 in_situ = bulk.in_situ(d.triangle);
   const PlaneStiffness& c = bulk.stiffness();
-  const DamageMaterial& m = material(d.triangle);
+  const DamageMaterial m = on_plane(material(d.triangle), d.normal);
   const Stretch f = stretch_of(state, gradients, d.triangle);
   const CrackFrame a(c, d.normal);
   const Sym2 total = f.u + Sym2{-1.0, -1.0, 0.0};

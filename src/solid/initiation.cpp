@@ -72,9 +72,85 @@ CrackStart by_ellipse(const DamageMaterial& m, const Principal& p) {
   return start;
 }
 
+struct WorstPlane {
+  double share = 0.0;  // of its strength
+  Vec2 normal;
+  double stress = 0.0;      // on it, normal [Pa]
+  DamageMaterial material;  // of it
+};
+
+// The plane with the largest share(material of the plane, σ_n, τ): looked for among directions 2 degrees
+// apart from the bedding's on, and then between the neighbours of the best of them.
+template <class Share>
+WorstPlane worst_plane(const DamageMaterial& rock, Sym2 stress, const Share& share) {
+  const double bedding = std::atan2(rock.bedding.normal.y, rock.bedding.normal.x);
+  const auto on = [&](double angle) {
+    WorstPlane w;
+    w.normal = direction(angle);
+    w.material = on_plane(rock, w.normal);
+    const Vec2 traction = stress * w.normal;
+    w.stress = dot(traction, w.normal);
+    w.share = share(w.material, w.stress, std::abs(cross(w.normal, traction)));
+    return w;
+  };
+  constexpr int directions = 90;
+  constexpr double apart = std::numbers::pi / directions;
+  WorstPlane worst = on(bedding);
+  double best = bedding;
+  for (int i = 1; i < directions; ++i) {
+    const WorstPlane w = on(bedding + i * apart);
+    if (w.share > worst.share) worst = w, best = bedding + i * apart;
+  }
+  if (worst.share < 0.99) return worst;  // between the directions it is less than 1 % more
+  double low = best - apart, high = best + apart;
+  for (int i = 0; i < 40; ++i) {
+    const WorstPlane a = on(low + (high - low) / 3.0), b = on(high - (high - low) / 3.0);
+    const WorstPlane& better = a.share > b.share ? a : b;
+    if (better.share > worst.share) worst = better;
+    (a.share > b.share ? high : low) =
+        a.share > b.share ? high - (high - low) / 3.0 : low + (high - low) / 3.0;
+  }
+  return worst;
+}
+
+double shear_load(const DamageMaterial& m, double normal, double shear) {
+  return (shear + normal * m.tan_friction) / m.cohesion;
+}
+
+CrackStart bedded_start(const DamageMaterial& rock, Sym2 stress) {
+  const Initiation by = rock.initiation;
+  if (by == Initiation::ellipse) {
+    const auto parts = [](const DamageMaterial& m, double normal, double shear) {
+      return std::array{std::max(0.0, normal) / m.tensile_strength, shear / m.cohesion};
+    };
+    const WorstPlane w = worst_plane(rock, stress, [&](const DamageMaterial& m, double normal, double shear) {
+      const auto [t_n, t_s] = parts(m, normal, shear);
+      return std::hypot(t_n, t_s);
+    });
+    if (w.share <= 1.0) return {};
+    const auto [t_n, t_s] = parts(w.material, w.stress, std::abs(cross(w.normal, stress * w.normal)));
+    return {true, t_s > t_n, w.normal, w.material.cohesion};
+  }
+  if (by != Initiation::shear) {
+    const WorstPlane w = worst_plane(rock, stress, [](const DamageMaterial& m, double normal, double) {
+      return normal / m.tensile_strength;
+    });
+    if (w.share > 1.0) return {true, false, w.normal, w.material.cohesion};
+  }
+  if (by == Initiation::principal) return {};
+  const bool pressed = by == Initiation::mohr_coulomb;
+  DamageMaterial m = rock;
+  if (!pressed) m.tan_friction = 0.0;
+  const WorstPlane w = worst_plane(m, stress, shear_load);
+  if (w.share <= 1.0) return {};
+  const double above = pressed ? std::max(0.0, m.tan_friction - m.tan_residual) : 0.0;
+  return {true, true, w.normal, w.material.cohesion + above * std::max(-w.stress, 0.0)};
+}
+
 }  // namespace
 
 CrackStart crack_start(const DamageMaterial& m, Sym2 stress) {
+  if (m.bedding) return bedded_start(m, stress);
   const Principal p = principal(stress);
   CrackStart start;
   switch (m.initiation) {

@@ -27,8 +27,7 @@ std::string megapascal(double pressure) { return fmt::format("{:.4g} MPa", 1e-6 
 std::string gigapascal(double modulus) { return fmt::format("{:.4g} GPa", 1e-9 * modulus); }
 std::string millisecond(double time) { return fmt::format("{:.3g} ms", 1e3 * time); }
 
-void cohesive_zones(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
-  const CohesiveMaterial& m = scene.cohesive;
+void cohesive_zones(const Scene& scene, const CohesiveMaterial& m, const MeshMeasure& mesh, Lines& lines) {
   const double modulus = plane_strain_modulus(scene.stiffness);
   const auto look = [&](const char* what, double energy, double strength, const char* advice) {
     const double zone = cohesive_zone(modulus, energy, strength);
@@ -45,9 +44,28 @@ void cohesive_zones(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
   look("sliding (mode II)", m.fracture_energy_mode2, m.cohesion, "do not rely on how much breaks in shear");
 }
 
+double longest_edge(const Scene& scene) {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const CohesiveMaterial& m : extreme_planes(scene.cohesive))
+    longest = std::min(longest, scene.law->longest_edge(m));
+  return longest;
+}
+
+// The longest element that damage can follow, across a crack and along it.
+std::array<double, 2> damage_limits(const Scene& scene) {
+  const DamageMaterial& m = scene.damage.materials.front();
+  auto limits = size_limits(m, *scene.damage.law, scene.stiffness, {1.0, 0.0});
+  if (!m.bedding) return limits;
+  for (const Vec2 n : {m.bedding.normal, Vec2{-m.bedding.normal.y, m.bedding.normal.x}}) {
+    const auto here = size_limits(m, *scene.damage.law, scene.stiffness, n);
+    for (std::size_t i = 0; i < 2; ++i) limits[i] = std::min(limits[i], here[i]);
+  }
+  return limits;
+}
+
 // Far from the wellbore edges may be too long for the exact calibration: they are tougher than asked.
 void coarse_edges(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
-  const double longest = scene.law->longest_edge(scene.cohesive);
+  const double longest = longest_edge(scene);
   if (mesh.longest_edge <= longest) return;
   lines.push_back(
       fmt::format("warning: edges longer than {} (up to {}, far from the wellbore) dissipate more than the "
@@ -76,8 +94,7 @@ void penalty_compliance(const Scene& scene, const MeshMeasure& mesh, Lines& line
 
 // A triangle is at most as long across a crack as its longest height, some edge long.
 void damage_sizes(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
-  const DamageMaterial& m = scene.damage.materials.front();
-  const auto limit = size_limits(m, *scene.damage.law, scene.stiffness, {1.0, 0.0});
+  const auto limit = damage_limits(scene);
   const auto look = [&](const char* what, double longest, double size, const char* where) {
     if (size <= longest) return;
     lines.push_back(fmt::format(
@@ -166,7 +183,7 @@ void wall_before_pumping(const Scene& scene, const MeshMeasure& mesh, Lines& lin
   if (mesh.wellbore_edges == 0) return;
   const double p = scene.fluid ? scene.initial_pressure : 0.0;
   const PrincipalStress hoop = wall_hoop_stress(scene.stress, p);
-  const CohesiveMaterial& m = scene.cohesive;
+  const CohesiveMaterial m = weakest_plane(scene.cohesive);
   if (hoop.largest > m.tensile_strength) {
     lines.push_back(
         fmt::format("note: the stress alone pulls the wellbore wall apart before pumping: {} along the wall "
@@ -206,7 +223,7 @@ Onset expected_onset(const Scene& scene, double end_time) {
   const FilledHole hole{mesh.wellbore_area, scene.stiffness.c66, principal_stress(scene.stress).mean(),
                         *scene.fluid, scene.initial_pressure};
   onset.expected = true;
-  onset.wall_pressure = hubbert_willis_pressure(scene.stress, scene.cohesive.tensile_strength);
+  onset.wall_pressure = hubbert_willis_pressure(scene.stress, weakest_plane(scene.cohesive).tensile_strength);
   onset.end_pressure = hole.pressure(injected);
   onset.time = time_of_volume(scene.pump, std::max(0.0, hole.injected(onset.wall_pressure)), end_time);
   onset.wall_pressure += scene.pore_pressure;
@@ -217,8 +234,7 @@ Onset expected_onset(const Scene& scene, double end_time) {
 std::string scene_error(const Scene& scene) {
   const MeshMeasure mesh = measure_mesh(*scene.mesh);
   if (scene.damage.law) {
-    const double most =
-        size_limits(scene.damage.materials.front(), *scene.damage.law, scene.stiffness, {1.0, 0.0})[0];
+    const double most = damage_limits(scene)[0];
     if (mesh.edge <= most) return {};
     return fmt::format(
         "smeared damage is not possible on edges longer than {} (their elastic energy is above the fracture "
@@ -227,7 +243,7 @@ std::string scene_error(const Scene& scene) {
         length(most), length(mesh.edge));
   }
   if (!scene.law) return {};
-  const double longest = scene.law->longest_edge(scene.cohesive);
+  const double longest = longest_edge(scene);
   if (mesh.edge <= longest) return {};
   return fmt::format(
       "cohesive.calibration = \"exact\" is not possible on edges longer than {} with cohesive.penalty = {} "
@@ -248,7 +264,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, double end_time, con
   }
   if (scene.damage.law) damage_sizes(scene, mesh, lines);
   if (scene.breaks()) {
-    cohesive_zones(scene, mesh, lines);
+    for (const CohesiveMaterial& m : extreme_planes(scene.cohesive)) cohesive_zones(scene, m, mesh, lines);
     pressure_loss(scene, end_time, lines);
     wall_before_pumping(scene, mesh, lines);
   }

@@ -350,7 +350,7 @@ void Simulation::relax() {
 }
 
 void Simulation::set_screen() {
-  const CohesiveMaterial& m = scene_.cohesive;
+  const CohesiveMaterial m = weakest_plane(scene_.cohesive);
   // A utilisation of the threshold in opening and slip together is at least its √½ in one of them.
   const double share = std::sqrt(0.5) * scene_.insertion.threshold;
   screen_ = {share * m.tensile_strength, share * m.cohesion, share * m.tan_friction};

@@ -121,5 +121,40 @@ TEST_P(CohesiveElementOf, BooksWhatItDissipates) {
   EXPECT_NEAR(booked / work, 1.0, 1e-4);
 }
 
+// Bedded rock: an element along x takes the fracture energy of its own plane, whatever the angle of the
+// bedding.
+TEST_P(CohesiveElementOf, TakesTheEnergyOfItsPlaneInBeddedRock) {
+  for (const double exponent : {1.0, 4.0}) {
+    for (const double degrees : {0.0, 20.0, 50.0, 90.0}) {
+      const double angle = degrees * std::numbers::pi / 180.0;
+      CohesiveMaterial rock = granite::cohesive();
+      rock.tan_residual = 0.0;
+      rock.bedding = {{-std::sin(angle), std::cos(angle)}, exponent, 1e6, 10e6, 2.0, 20.0};
+      const double share = std::pow(std::cos(angle), 2.0 * exponent);
+      for (const bool shear : {false, true}) {
+        Pair pair(GetParam(), rock, false);
+        const double energy = shear ? 80.0 + share * (20.0 - 80.0) : 5.0 + share * (2.0 - 5.0);
+        const double strength = shear ? 24e6 + share * (10e6 - 24e6) : 3e6 + share * (1e6 - 3e6);
+        const int steps = 40000;
+        const double end = 8.0 * energy / strength;
+        double most = 0.0;
+        for (int i = 0; i <= steps; ++i) {
+          const double d = end * i / steps;
+          const Vec2 u = shear ? Vec2{d, 0.0} : Vec2{0.0, d};
+          const auto f = pair.move(u, u, 0.0);
+          most = std::max(most, norm(f[0] + f[1]) / edge_length);
+        }
+        const double taken = pair.state.dissipation.fracture / edge_length;
+        std::printf("%s, m %.0f, %.0f degrees, %s: energy %+.1e, strength %+.1e\n",
+                    GetParam()->name().c_str(), exponent, degrees, shear ? "shear" : "tension",
+                    taken / energy - 1.0, most / strength - 1.0);
+        EXPECT_EQ(pair.state.cohesive.status[0], CohesiveStatus::broken);
+        EXPECT_NEAR(taken / energy, 1.0, 1e-3);
+        EXPECT_NEAR(most / strength, 1.0, 1e-3);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace crackle

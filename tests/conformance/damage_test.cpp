@@ -325,6 +325,77 @@ TEST_P(DamageLaw, ClosedCracksRub) {
   EXPECT_LT(jump, 0.01);
 }
 
+DamageMaterial bedded(DamagePreset preset, double angle, double exponent) {
+  DamageMaterial m = material(preset);
+  m.tan_friction = 0.6;
+  m.bedding = {{-std::sin(angle), std::cos(angle)}, exponent, 1e6, 2e6, 20.0, 40.0};
+  return m;
+}
+
+// In bedded rock a triangle takes the fracture energy of its crack's plane.
+TEST_P(DamageLaw, TakesTheEnergyOfItsPlaneInBeddedRock) {
+  for (const double degrees : {0.0, 30.0, 90.0}) {
+    const double angle = 0.3 - 0.5 * std::numbers::pi + degrees * std::numbers::pi / 180.0;  // from n0
+    const double share = std::pow(std::cos(degrees * std::numbers::pi / 180.0), 2.0);
+    Sample s(law, bedded(preset, angle, 1.0));
+    s.start(n0);
+    const double energy = 50.0 + share * (20.0 - 50.0), strength = 3e6 + share * (1e6 - 3e6);
+    EXPECT_NEAR(s.crack().strength[0], strength, 1.0);
+    const double length = s.crack().length, end = 1.2 * law->end() * energy / (strength * length);
+    for (int i = 1; i <= 20000; ++i) s.strain(n0, end * i / 20000, 0.0);
+    const double error = s.work / s.bulk().area(0) * length / energy - 1.0;
+    std::printf("%s at %.0f degrees: work over G %+.1e\n", law->name().c_str(), degrees, error);
+    EXPECT_TRUE(s.crack().failed);
+    EXPECT_LT(std::abs(error), law->name() == "exponential" ? 2e-3 : 1e-4);
+  }
+}
+
+// Where bedded rock cracks first as a stress grows, and on which plane: against all planes one by one.
+TEST(DamageInitiation, OfBeddedRockIsOnTheWorstPlane) {
+  const std::vector<Sym2> ways{{1.0, 0.0, 0.0}, {1.0, 0.5, 0.3}, {-1.0, -0.1, 0.2}, {-0.2, -1.0, 0.1}};
+  double off = 0.0, turned = 0.0;
+  for (const Initiation by :
+       {Initiation::principal, Initiation::shear, Initiation::ellipse, Initiation::mohr_coulomb}) {
+    for (const double exponent : {1.0, 4.0}) {
+      for (int degrees = 0; degrees < 180; degrees += 15) {
+        DamageMaterial m = bedded(DamagePreset::recommended, degrees * std::numbers::pi / 180.0, exponent);
+        m.initiation = by;
+        const double phi = by == Initiation::mohr_coulomb ? m.tan_friction : 0.0;
+        for (const Sym2 way : ways) {
+          const auto load = [&](Vec2 n) {  // over strength at a stress of 1 Pa
+            const DamageMaterial here = on_plane(m, n);
+            const Vec2 t = way * n;
+            const double pull = dot(t, n) / here.tensile_strength;
+            const double shear = (std::abs(cross(n, t)) + phi * dot(t, n)) / here.cohesion;
+            return by == Initiation::principal ? pull
+                   : by == Initiation::shear   ? shear
+                   : by == Initiation::ellipse ? std::hypot(std::max(pull, 0.0), shear)
+                                               : std::max(pull, shear);
+          };
+          double worst = 0.0;
+          for (int i = 0; i < 18000; ++i) {
+            const double a = std::numbers::pi * i / 18000;
+            worst = std::max(worst, load({std::cos(a), std::sin(a)}));
+          }
+          if (worst <= 0.0) continue;
+          double low = 0.0, high = 4.0 / worst;
+          for (int i = 0; i < 60; ++i) {
+            const double middle = 0.5 * (low + high);
+            (crack_start(m, middle * way).reached ? high : low) = middle;
+          }
+          off = std::max(off, std::abs(high * worst - 1.0));
+          const Vec2 n = crack_start(m, (high * (1.0 + 1e-9)) * way).normal;
+          turned = std::max(turned, 1.0 - load(n) / worst);
+        }
+      }
+    }
+  }
+  std::printf("bedded rock: stress at initiation off by %.1e, load on its plane below the worst by %.1e\n",
+              off, turned);
+  EXPECT_LT(off, 1e-5);
+  EXPECT_LT(turned, 1e-6);
+}
+
 // Size limits of the paper's granite (T10).
 TEST(DamageSize, LimitsOfTheGranite) {
   DamageMaterial m = material(DamagePreset::recommended);

@@ -33,7 +33,7 @@ class Cohesive {
 
   const CohesiveLaw& law() const { return *law_; }
   const std::vector<CohesiveMaterial>& materials() const { return materials_; }
-  /// Material of an element, with the penalty it was inserted with.
+  /// Material of an element: of its direction in bedded rock, with the penalty it was inserted with.
   CohesiveMaterial material(const State& state, Index element) const;
 
   /// Evaluates all elements: writes their end forces, grows damage, books dissipation to the state
@@ -77,7 +77,8 @@ class Cohesive {
                             std::uint16_t number, const CornerForce& rock, const CornerForce& load) const;
 
   /// How near an edge of a material is to its strength under a stress, 1 at the strength:
-  /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param along the edge, unit
+  /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param material that of the rock, not of the plane @param along the edge,
+  /// unit
   static double utilisation(const CohesiveMaterial& material, Sym2 stress, Vec2 along);
   /// The same of the most loaded point of an element; 1 or more once it is damaged.
   double utilisation(const State& state, const CohesiveHistory& history) const;

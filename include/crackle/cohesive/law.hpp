@@ -25,6 +25,8 @@
 // | penalty               | Pa   | > 0      | p_f: stiffness times edge length                   |
 // | tangential_penalty    | Pa   | > 0      | of the friction spring, times edge length          |
 //
+// In bedded rock strengths and fracture energies are those of the edge's direction (bedding.hpp).
+//
 // Calibration: "y_geo" takes the softening lengths of Y-Geo, o_t = 3 G_I / f_t and s_t = 3 G_II / f_s
 // (so that evans_marathe dissipates 1.159 G and the elastic part on top); "exact" takes those with
 // which the whole curve dissipates G, in mode II above residual friction.
@@ -38,6 +40,7 @@
 #include <string>
 #include <vector>
 
+#include "crackle/state/bedding.hpp"
 #include "crackle/state/state.hpp"
 
 namespace crackle {
@@ -55,6 +58,7 @@ struct CohesiveMaterial {
   double tangential_penalty = 0.0;
   Calibration calibration = Calibration::exact;
   double mixed_mode_exponent = 4.0;  ///< η of "benzeggagh_kenane" [-]
+  Bedding bedding = {};              ///< the values above are those across it
 };
 
 /// A traction-separation law.

@@ -98,6 +98,12 @@ struct Case {
     std::optional<double> poisson_ratio_normal = {};  ///< strain along it under stress across it [-]
     std::optional<double> shear_modulus_normal = {};  ///< across it [Pa]
     double bedding_angle = 0.0;                       ///< from x to the bedding, anticlockwise [rad]
+    // Of planes along the bedding; the values above are those of planes across it.
+    std::optional<double> tensile_strength_bedding = {};       ///< [Pa]; none: the same
+    std::optional<double> cohesion_bedding = {};               ///< [Pa]
+    std::optional<double> fracture_energy_mode1_bedding = {};  ///< [J/m2]
+    std::optional<double> fracture_energy_mode2_bedding = {};  ///< [J/m2]
+    double bedding_exponent = 1.0;                             ///< m of bedding.hpp [-]
   } rock;
 
   struct Cohesive {

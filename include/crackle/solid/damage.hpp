@@ -26,6 +26,8 @@
 //
 // Initiation: "principal" σ_1 > f_t; "shear" (σ_1 − σ_2)/2 > c; "box" the first of these two; "ellipse"
 // (⟨σ_n⟩/f_t)² + (τ/c)² > 1 on the worst plane; "mohr_coulomb" σ_1 > f_t or |τ| > c − σ_n tan φ.
+// Bedded rock (bedding.hpp) cracks on the plane whose load is the largest share of its own strength: σ_n of
+// f_t(n), |τ| of c(n), |τ| + σ_n tan φ of c(n).
 //
 // | parameter             | unit | range |                                                             |
 // |-----------------------|------|-------|-------------------------------------------------------------|
@@ -49,6 +51,7 @@
 
 #include "crackle/solid/bulk.hpp"
 #include "crackle/solid/softening.hpp"
+#include "crackle/state/bedding.hpp"
 
 namespace crackle {
 
@@ -67,6 +70,7 @@ struct DamageMaterial {
   bool drop_all = true;  ///< an open failed triangle bears no stress
   Initiation initiation = Initiation::mohr_coulomb;
   ElementLength element_length = ElementLength::oliver;
+  Bedding bedding = {};  ///< the values above are those across it
 
   /// Sets the members that a preset says.
   void apply(DamagePreset preset);

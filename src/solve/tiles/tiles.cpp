@@ -280,6 +280,7 @@ void Tiles::list_elements(const State& state, const Cohesive* cohesive, Index i)
   sort_out(all);
   const std::uint16_t material = c.material[at(all.front())];
   tile.material = material;
+  const bool bedded = bool(cohesive->materials()[material].bedding);  // each element has its own strength
   for (const Index element : all) {
     const Edge& edge = state.mesh->edges[at(c.edge[at(element)])];
     std::array<bool, 2> here{};
@@ -287,7 +288,7 @@ void Tiles::list_elements(const State& state, const Cohesive* cohesive, Index i)
       here[face] = edge.triangle[face] >= tile.begin && edge.triangle[face] < tile.end;
     }
     const bool intact = c.history_of[at(element)] < 0;
-    if (intact && here[0] && here[1] && c.material[at(element)] == material) {
+    if (intact && !bedded && here[0] && here[1] && c.material[at(element)] == material) {
       tile.elements.push_back(element);
       continue;
     }

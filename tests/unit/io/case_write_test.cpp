@@ -76,6 +76,15 @@ TEST(ResolvedToml, FillsInTheModuliAcrossTheBedding) {
   EXPECT_FALSE(read_case(good_path).rock.shear_modulus_normal);
 }
 
+TEST(ResolvedToml, KeepsTheStrengthsAlongTheBedding) {
+  const Case scene = read_case(good_path, {"rock.tensile_strength_bedding=1 MPa", "rock.bedding_exponent=3",
+                                           "rock.bedding_angle=30 deg"});
+  const Case back = parse_case(resolved_toml(scene), "resolved.toml");
+  EXPECT_EQ(back.rock.tensile_strength_bedding, 1e6);
+  EXPECT_EQ(back.rock.bedding_exponent, 3.0);
+  EXPECT_FALSE(back.rock.cohesion_bedding);
+}
+
 TEST(ResolvedToml, KeepsPumpStagesAndTheChosenDamping) {
   const Case scene =
       read_case(good_path, {"fluid.pump=[{to='1 ms', rate=1}, {from='1 ms', rate='2 m2/s'}]",

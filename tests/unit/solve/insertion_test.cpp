@@ -42,6 +42,44 @@ TEST(Insertion, UnderUniformStressNothingMoves) {
   EXPECT_LT(wave, 1e-9);
 }
 
+// With the same values on all planes bedding changes nothing: on demand, and with elements on all edges,
+// which then are evaluated one by one.
+TEST(Insertion, BeddingWithEqualValuesChangesNothing) {
+  for (const bool demand : {true, false}) {
+    std::array<std::vector<Vec2>, 2> displacement;
+    for (const bool bedded : {false, true}) {
+      Scene scene = pulled_bar(0.6);
+      scene.insertion.on_demand = demand;
+      CohesiveMaterial& m = scene.cohesive;
+      if (bedded)
+        m.bedding = {{0.6, 0.8},
+                     1.0,
+                     m.tensile_strength,
+                     m.cohesion,
+                     m.fracture_energy_mode1,
+                     m.fracture_energy_mode2};
+      Simulation simulation(scene);
+      State& state = simulation.state();
+      for (Index n = 0; n < state.node_count(); ++n) {
+        if (state.inverse_mass[at(n)] > 0.0)
+          state.velocity[at(n)] = {0.03 * state.node_reference(n).x / h, 0.0};
+      }
+      const double dt = 0.5 * simulation.stable_limit();
+      for (int i = 0; i < 300; ++i) simulation.step(dt);
+      EXPECT_GT(state.cohesive.count(), 100);
+      displacement[bedded ? 1 : 0] = state.displacement;
+    }
+    ASSERT_EQ(displacement[0].size(), displacement[1].size());
+    double worst = 0.0, largest = 0.0;
+    for (std::size_t n = 0; n < displacement[0].size(); ++n) {
+      worst = std::max(worst, norm(displacement[0][n] - displacement[1][n]));
+      largest = std::max(largest, norm(displacement[0][n]));
+    }
+    std::printf("%s: displacements differ by %.1e\n", demand ? "on demand" : "all edges", worst / largest);
+    EXPECT_LT(worst, 1e-9 * largest);
+  }
+}
+
 // A wave runs through the bar and meets the edges that it brings to the threshold. No energy comes or
 // goes; what it changes is the compliance of their springs, and the less the stiffer they are (at a
 // smaller step).
