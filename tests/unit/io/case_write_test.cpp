@@ -29,6 +29,8 @@ TEST(ResolvedToml, ReadsBackToTheSameText) {
 TEST(ResolvedToml, HoldsEveryKeyOnce) {
   const std::string text = resolved_toml(
       read_case(good_path, {"damping.viscosity=3", "output.fields=['a']", "rock.young_modulus_normal=30e9",
+                            "rock.tensile_strength_bedding=1e6", "rock.cohesion_bedding=1e6",
+                            "rock.fracture_energy_mode1_bedding=1", "rock.fracture_energy_mode2_bedding=1",
                             "fluid.cavitation_pressure=0", "well.breakdown_pressure=70e6"}));
   // absent: a list of included files, the damping that was not chosen, a mesh file, what starts damage
   const std::set<std::string> absent = {"include", "ratio", "file", "initiation"};

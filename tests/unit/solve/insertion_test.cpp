@@ -62,7 +62,7 @@ TEST(Insertion, BeddingWithEqualValuesChangesNothing) {
       State& state = simulation.state();
       for (Index n = 0; n < state.node_count(); ++n) {
         if (state.inverse_mass[at(n)] > 0.0)
-          state.velocity[at(n)] = {0.03 * state.node_reference(n).x / h, 0.0};
+          state.velocity[at(n)] = {0.002 * state.node_reference(n).x / h, 0.0};
       }
       const double dt = 0.5 * simulation.stable_limit();
       for (int i = 0; i < 300; ++i) simulation.step(dt);
