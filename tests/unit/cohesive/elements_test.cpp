@@ -94,6 +94,57 @@ TEST(CohesiveElement, SlidInModeTwoGivesItsFractureEnergy) {
   }
 }
 
+// An edge under 20 MPa of shear gets a spring that holds 5 J/m2. It unloads, which the rock gains, and is
+// pulled apart: that is paid back, the fracture energy dissipated, and nothing made on the way.
+TEST(CohesiveElement, WhatInsertionGaveIsPaidBackByBreaking) {
+  const double h = 3e-3;
+  const auto mesh = one_edge(h);
+  for (const char* law : {"linear", "benzeggagh_kenane"}) {
+    State state = make_tied_state(mesh);
+    set_mass(state, 2500);
+    const Bulk bulk(*mesh, isotropic_plane_strain(35e9, 0.27), 2500, Sym2{0, 0, 20e6}, {});
+    Cohesive cohesive(find_law(law), granite());
+    const auto rock = [&](Index corner) {
+      return bulk.triangle_forces(state, corner / 3)[static_cast<std::size_t>(corner % 3)];
+    };
+    Index edge = 0;
+    while (mesh->edges[static_cast<std::size_t>(edge)].triangle[1] < 0) ++edge;
+    const bool upper_is_a = mesh->edges[static_cast<std::size_t>(edge)].triangle[0] == 0;
+    for (double& m : state.inverse_mass) m = 0.0;  // held: the element bears what the stress asks
+    cohesive.insert(state, {{edge}}, {{120e9}}, 0, rock, [](Index) { return Vec2{}; });
+    const auto force = [&] {
+      const EndForces& f = state.cohesive.force[0];
+      return (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1);
+    };
+    cohesive.add_tractions(state);
+    Vec2 before = force();
+    const double given = state.cohesive.histories[0].point[2].inserted;
+    const double back = before.x / 120e9;  // [m]
+    double work = 0.0, booked = 0.0, worst = 0.0;
+    const int n = 20000;
+    Vec2 moved;
+    for (int i = 1; i <= 2 * n; ++i) {
+      const Vec2 d{back * std::min(i, n) / n, 2e-5 * std::max(i - n, 0) / n};
+      for (const Index corner : {0, 1, 2})
+        state.displacement[static_cast<std::size_t>(state.node_of_corner[static_cast<std::size_t>(corner)])] =
+            d;
+      cohesive.add_tractions(state);
+      work -= 0.5 * dot(force() + before, d - moved) / h;
+      moved = d;
+      before = force();
+      EXPECT_GE(state.dissipation.fracture, booked * h);
+      booked = state.dissipation.fracture / h;
+      worst = std::max(worst, std::abs(cohesive.stored_energy(state) / h + booked - work));
+    }
+    std::printf("%s: given %.2f J/m2, booked %.4f of 5 J/m2, ledger within %.1e J/m2\n", law, given, booked,
+                worst);
+    EXPECT_EQ(state.cohesive.status[0], CohesiveStatus::broken);
+    EXPECT_GT(given, 4.0);
+    EXPECT_NEAR(booked, 5.0, 5e-3);
+    EXPECT_LT(worst, 5e-3);
+  }
+}
+
 TEST(CohesiveElement, RepelsOverlap) {
   const Pull p = pull("evans_marathe", {0, -1}, 1e-6, 0.0);
   EXPECT_GT(p.work, 0.0);
