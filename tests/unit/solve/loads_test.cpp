@@ -34,12 +34,12 @@ Scene pulled_bar(const Load& end) {
   return s;
 }
 
-struct Run {
+struct Outcome {
   double residual = 0.0;
   std::vector<LoadRecord> loads;
 };
-Run run(Simulation& s, double end) {
-  Run r;
+Outcome step_to(Simulation& s, double end) {
+  Outcome r;
   while (s.state().time < end) {
     if (end - s.state().time < 0.2 * end && r.loads.empty()) s.take_loads(), r.loads.resize(1);
     const double dt = 0.8 * s.stable_limit();
@@ -63,7 +63,7 @@ TEST(Loads, BarUnderATractionAndAGivenDisplacement) {
   traction.ramp = displacement.ramp = velocity.ramp = 1e-3;  // the velocity's part of 2 ms: 1.5 ms
   for (const Load& load : {traction, displacement, velocity}) {
     Simulation s(pulled_bar(load));
-    const Run r = run(s, 2e-3);
+    const Outcome r = step_to(s, 2e-3);
     const LoadRecord end = r.loads[2];
     const bool moves =
         load.motion[0] && load.motion[0]->is_velocity;  // the mean over the last 0.4 ms is earlier
@@ -128,7 +128,7 @@ Scene notched_bar(bool damaged) {
 TEST(Loads, HoldWhatParts) {
   for (const bool damaged : {false, true}) {
     Simulation s(notched_bar(damaged));
-    const Run r = run(s, 3e-4);
+    const Outcome r = step_to(s, 3e-4);
     double mouth = 0.0, off = 0.0;
     int nodes = 0;
     for (Index n = 0; n < s.state().node_count(); ++n) {
