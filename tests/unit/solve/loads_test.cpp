@@ -6,6 +6,7 @@
 
 #include "../../granite.hpp"
 #include "crackle/core/errors.hpp"
+#include "crackle/solve/estimates.hpp"
 
 namespace crackle {
 namespace {
