@@ -27,7 +27,19 @@ def measure(question, method, folder):
         return [wave_speed(run)]
     if question.startswith("breakdown"):
         return breakdown(run, method)
+    if question == "plate":
+        return plate(run)
     return crack(run)
+
+
+def plate(run):
+    """Peak stress of cases/accuracy_speed/plate.toml, and what it took to break it."""
+    half, width, rise = 10e-3, 60e-3, 1.0724  # [m]; F of K = s sqrt(pi a) F for a third of the width
+    stress = run.history["top_force_y_N_m"].max() / width
+    spent = run.history["energy_fracture_J_m"][-1] / (ENERGY * (width - 2.0 * half))
+    return [("peak_stress_Pa", stress, stress * rise * math.sqrt(math.pi * half) / TOUGHNESS - 1.0),
+            ("dissipated_over_G", spent, spent - 1.0),
+            ("energy_residual", run.summary["energy_residual_max"], None)]
 
 
 def shear_modulus(run):

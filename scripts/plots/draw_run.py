@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the figures of a run into its folder: pressure.png, fractures.png, events.png."""
+"""Draws the figures of a run into its folder: pressure.png, fractures.png, events.png, and load.png of a run with loads."""
 
 import argparse
 import pathlib
@@ -11,6 +11,7 @@ from run_data import Run, RunError
 import events_figure
 import field_time_figure
 import fractures_figure
+import load_figure
 import look
 import pressure_figure
 
@@ -31,7 +32,10 @@ def main():
         run = Run(arguments.run)
         folder = pathlib.Path(arguments.output or arguments.run)
         folder.mkdir(parents=True, exist_ok=True)
-        for name, draw in (IN_FIELD_TIME if field_time_figure.is_one(run) else FIGURES).items():
+        figures = dict(IN_FIELD_TIME if field_time_figure.is_one(run) else FIGURES)
+        if load_figure.names(run):
+            figures["load.png"] = load_figure.draw
+        for name, draw in figures.items():
             draw(run, folder / name)
             if arguments.small:
                 look.shrink(folder / name)

@@ -10,8 +10,9 @@ import matplotlib.pyplot as plt
 
 from look import ACCENT, FAINT, INK, WATER, name_axes
 
-COLORS = {"tied": FAINT, "all": ACCENT, "on_demand": WATER}
-NAMES = {"tied": "no elements", "all": "elements on all edges", "on_demand": "elements on demand"}
+COLORS = {"tied": FAINT, "all": ACCENT, "on_demand": WATER, "damage": "#2a9d8f"}
+NAMES = {"tied": "no elements", "all": "elements on all edges", "on_demand": "elements on demand",
+         "damage": "smeared damage"}
 
 
 def read(table):
@@ -56,7 +57,7 @@ def save(figure, folder, name):
 
 def time_step(rows, folder):
     figure, axes = new("Time step: a fracture in a strip strained to 1.2 G", 3)
-    for setting in ("all", "on_demand"):
+    for setting in ("all", "on_demand", "damage"):
         p = Points(rows, "strip", setting)
         axes[0].plot(p["x"], [max(v, 1e-8) for v in p["made"]], **style(setting))
         axes[1].plot(p["x"], [min(v, 1e4) if math.isfinite(v) else 1e4 for v in p["dissipated"]], **style(setting))

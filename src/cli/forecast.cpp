@@ -123,7 +123,8 @@ StableStep stable_step_of(const Scene& scene) {
   const Bulk bulk(*scene.mesh, scene.triangle_stiffness.value_or(scene.stiffness), scene.density,
                   scene.stress, scene.damping);
   set_mass(state, scene.density);
-  if (!scene.absorbing_boundary) fix_nodes(state, EdgeKind::outer);
+  if (!scene.absorbing_boundary && !scene.free_boundary && scene.loads.empty())
+    fix_nodes(state, EdgeKind::outer);
   if (!scene.law) return stable_step(state, bulk, nullptr);
   if (split) insert_all(state);
   std::vector<CohesiveMaterial> materials{scene.cohesive};

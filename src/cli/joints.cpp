@@ -50,8 +50,16 @@ JointSet random_set(const Case::JointSet& set, double wellbore_radius) {
   return random;
 }
 
-/// Whether a mesh made from the case has the crack of fracture.notch, as the last of its sets of joints.
-bool has_notch(const Case& scene) { return scene.mesh.file.empty() && scene.fracture.notch > 0.0; }
+/// What is cut before the run into a mesh made from the case: each the set of joints of its own, after those
+/// of the joints.
+std::vector<Case::Notch> notches_of(const Case& scene) {
+  std::vector<Case::Notch> notches;
+  if (!scene.mesh.file.empty()) return notches;
+  if (scene.fracture.notch > 0.0)
+    notches.push_back({-scene.fracture.notch, 0.0, scene.fracture.notch, 0.0, "pumped"});
+  notches.insert(notches.end(), scene.notches.begin(), scene.notches.end());
+  return notches;
+}
 
 /// Of a set of the mesh. In a mesh that was made from the case they are numbered as add_joints() has them, in
 /// one from a file they go by name.
@@ -88,17 +96,19 @@ void add_joints(const Case& scene, MeshRecipe& recipe) {
                          : read_joints_csv(set.file, number);
     recipe.joints.insert(recipe.joints.end(), joints.begin(), joints.end());
   }
-  if (has_notch(scene)) {
-    const double half = scene.fracture.notch;
-    recipe.joints.push_back({{-half, 0.0}, {half, 0.0}, static_cast<Index>(recipe.joint_sets.size())});
-    recipe.joint_sets.emplace_back("notch");
+  int number = 0;
+  for (const Case::Notch& notch : notches_of(scene)) {
+    const Index set = static_cast<Index>(recipe.joint_sets.size());
+    recipe.joints.push_back({{notch.x1, notch.y1}, {notch.x2, notch.y2}, set});
+    recipe.joint_sets.push_back(fmt::format("notch{}", ++number));
   }
 }
 
 void set_joints(const Case& scene, Scene& solver_scene) {
   const Mesh& mesh = *solver_scene.mesh;
   std::vector<bool> bonded;
-  const std::size_t joint_sets = mesh.joint_sets.size() - (has_notch(scene) ? 1 : 0);
+  const std::vector<Case::Notch> notches = notches_of(scene);
+  const std::size_t joint_sets = mesh.joint_sets.size() - notches.size();
   for (std::size_t set = 0; set < joint_sets; ++set) {
     const Case::JointProperties& joint = properties_of(scene, mesh, set);
     bonded.push_back(joint.law == "bonded");
@@ -120,8 +130,9 @@ void set_joints(const Case& scene, Scene& solver_scene) {
     const Edge& edge = mesh.edges[static_cast<std::size_t>(e)];
     if (edge.joint < 0 || edge.kind != EdgeKind::interior) continue;
     const auto set = static_cast<std::size_t>(mesh.set_of_joint[static_cast<std::size_t>(edge.joint)]);
-    if (set == joint_sets) {
+    if (set >= joint_sets) {
       solver_scene.cracks.push_back(e);
+      if (notches[set - joint_sets].fluid == "none") solver_scene.dry_cracks.push_back(e);
       continue;
     }
     solver_scene.joints.push_back({e, static_cast<std::uint16_t>(set + 1), bonded[set]});

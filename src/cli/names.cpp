@@ -61,6 +61,7 @@ std::vector<NameGroup> name_groups() {
       {"Outer boundaries",
        "boundary.outer",
        {{"fixed", "held in place; reflects waves"},
+        {"free", "moves; bears the in-situ stress as a constant load"},
         {"absorbing", "lets waves out, as far as they come in straight (Lysmer and Kuhlemeyer 1969)"}}});
   groups.push_back({"Mesh generators",
                     "mesh.generator",

@@ -51,6 +51,8 @@ RegimeChoice choose_regime(const Case& scene) {
                 !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
             scene, "strengths along the bedding are not yet taken");
     require(scene.joints.empty() && scene.joint_sets.empty(), scene, "joints are not yet taken");
+    require(scene.notches.empty(), scene, "[[notches]] are not yet taken, give fracture.notch");
+    require(scene.loads.empty(), scene, "[[loads]] are not yet taken");
     require(scene.cohesive.insertion != "none", scene,
             "it needs cohesive elements: cohesive.insertion = \"none\" has none");
     require(scene.fluid.viscosity > 0.0, scene, "give fluid.viscosity");

@@ -37,7 +37,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tally, double time, double dt,
+HistoryRow history_row(Simulation& s, const Energies& e, const Tally& tally, double time, double dt,
                        double pressure) {
   HistoryRow row;
   row.time = time;
@@ -61,6 +61,7 @@ HistoryRow history_row(const Simulation& s, const Energies& e, const Tally& tall
   row.energy_fluid = e.fluid;
   row.work_external = e.external;
   row.energy_residual = e.residual;
+  for (const LoadRecord& load : s.take_loads()) row.loads.push_back({load.force, load.displacement});
   return row;
 }
 
@@ -83,6 +84,9 @@ class Run {
   /// @return exit code
   int go() {
     heed_requests();
+    std::vector<std::string> loads;
+    for (const Case::Load& load : scene_.loads) loads.push_back(load.name);
+    folder_.set_loads(std::move(loads));
     say(fmt::format("crackle {}: {}", version, scene_.title.empty() ? scene_.file : scene_.title));
     if (options_.resume.empty() || !resume()) begin();
     heed_stops();

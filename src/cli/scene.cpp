@@ -41,6 +41,33 @@ void set_damage(const Case& scene, Scene& s) {
   s.damage.materials = {m};
 }
 
+void set_loads(const Case& scene, Scene& s) {
+  s.free_boundary = scene.boundary.outer == "free";
+  for (const Case::Load& row : scene.loads) {
+    Load load;
+    const bool upright = row.side == "left" || row.side == "right";
+    load.side = row.side == "left"    ? Load::Side::left
+                : row.side == "right" ? Load::Side::right
+                : row.side == "top"   ? Load::Side::top
+                                      : Load::Side::bottom;
+    if (row.from) load.from = *row.from;
+    if (row.to) load.to = *row.to;
+    load.traction = {row.traction_x.value_or(0.0), row.traction_y.value_or(0.0)};
+    load.ramp = row.ramp;
+    load.one_sided = row.contact == "one_sided";
+    const auto motion = [&](std::size_t i, std::optional<double> velocity, std::optional<double> displacement,
+                            bool held) {
+      if (velocity) load.motion[i] = {*velocity, true};
+      if (displacement) load.motion[i] = {*displacement, false};
+      if (held) load.motion[i] = {0.0, true};
+    };
+    const bool fixed = row.support == "fixed", roller = row.support == "roller";
+    motion(0, row.velocity_x, row.displacement_x, fixed || (roller && upright));
+    motion(1, row.velocity_y, row.displacement_y, fixed || (roller && !upright));
+    s.loads.push_back(load);
+  }
+}
+
 }  // namespace
 
 PlaneStiffness rock_stiffness(const Case::Rock& rock) {
@@ -87,7 +114,9 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.stress_gradient = scene.stress_gradient;
   s.damping = {scene.damping.viscosity.value_or(0.0), scene.damping.ratio.value_or(0.0)};
   const bool damaged = scene.cohesive.insertion == "none";
-  if (!damaged) s.law = find_law(scene.cohesive.law);
+  const bool has_lines = !scene.joints.empty() || !scene.joint_sets.empty() || !scene.notches.empty() ||
+                         scene.fracture.notch > 0.0;
+  if (!damaged || has_lines) s.law = find_law(scene.cohesive.law);
   s.cohesive.tensile_strength = scene.rock.tensile_strength;
   s.cohesive.cohesion = scene.rock.cohesion;
   s.cohesive.tan_friction = std::tan(scene.rock.friction_angle);
@@ -104,10 +133,11 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     s.triangle_stiffness = compensated(s.stiffness, artificial_compliance(s.cohesive.penalty, shape));
   }
   if (damaged) set_damage(scene, s);
-  s.insertion.on_demand = scene.cohesive.insertion == "on_demand";
+  s.insertion.on_demand = scene.cohesive.insertion == "on_demand" || (damaged && has_lines);
   s.insertion.threshold = scene.cohesive.threshold;
   s.contact = {scene.contact.normal_penalty, scene.contact.tangential_penalty, s.cohesive.tan_residual};
   s.absorbing_boundary = scene.boundary.outer == "absorbing";
+  set_loads(scene, s);
   if (scene.wellbore.diameter > 0.0 || !scene.fluid.pump.empty()) {
     s.pore_pressure = scene.rock.pore_pressure;
     s.initial_pressure = scene.fluid.initial_pressure - s.pore_pressure;

@@ -162,88 +162,87 @@ std::vector<Index> Fluid::damaged_ahead(const State& state) const {
 }
 
 void Fluid::connect(State& state, std::span<const Index> broken) {
-  FluidState& f = state.fluid;
+  const FluidState& f = state.fluid;
   const Mesh& mesh = *state.mesh;
-  std::vector<Index> reached;  // edges to wet, in order found
+  Reached reached;
   for (const Index element : broken) {
     const Index e = state.cohesive.edge[at(element)];
     const auto& v = mesh.edges[at(e)].vertex;
     if (f.cavity_of_edge[at(e)] < 0 && !waits(state, e) &&
         (f.cavity_of_vertex[at(v[0])] >= 0 || f.cavity_of_vertex[at(v[1])] >= 0)) {
-      reached.push_back(e);
+      reached.edges.push_back(e);
     }
   }
-  if (reached.empty()) return;
+  wet(state, std::move(reached));
+}
+
+void Fluid::connect_triangles(State& state, std::span<const Index> failed) {
+  Reached reached;
+  for (const Index i : failed) {
+    const DamagedTriangle& d = state.damage.triangles[at(i)];
+    const bool touches = std::ranges::any_of(state.mesh->triangles[at(d.triangle)], [&](Index v) {
+      return state.fluid.cavity_of_vertex[at(v)] >= 0;
+    });
+    if (d.cavity < 0 && touches) reached.triangles.push_back(i);
+  }
+  wet(state, std::move(reached));
+}
+
+void Fluid::wet(State& state, Reached reached) {
+  if (reached.edges.empty() && reached.triangles.empty()) return;
+  const Mesh& mesh = *state.mesh;
   const Spread before = before_spread(state);
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const Index e = reached[i];
-    if (f.cavity_of_edge[at(e)] >= 0) continue;
-    const auto& v = mesh.edges[at(e)].vertex;
-    Index cavity = -1;
-    for (const Index w : v) {
-      const Index c = f.cavity_of_vertex[at(w)];
-      if (c >= 0) cavity = cavity < 0 ? c : std::min(cavity, c);
+  for (std::size_t e = 0, t = 0; e < reached.edges.size() || t < reached.triangles.size();) {
+    if (e < reached.edges.size()) {
+      const Index edge = reached.edges[e++];
+      if (state.fluid.cavity_of_edge[at(edge)] >= 0) continue;
+      const Index cavity = reach(state, mesh.edges[at(edge)].vertex, reached);
+      state.fluid.cavity_of_edge[at(edge)] = cavity;
+      continue;
     }
-    f.cavity_of_edge[at(e)] = cavity;
-    for (const Index w : v) {
-      const Index other = f.cavity_of_vertex[at(w)];
-      f.cavity_of_vertex[at(w)] = cavity;
-      if (other >= 0 && other != cavity) enter(state, cavity, other);
-      if (other < 0) {  // fresh vertex: on into broken elements that wait there
-        for (Index k = edges_of_vertex_first_[at(w)]; k < edges_of_vertex_first_[at(w) + 1]; ++k) {
-          const Index next = edges_of_vertex_[at(k)];
-          const Index element = state.cohesive.of_edge[at(next)];
-          if (f.cavity_of_edge[at(next)] < 0 && element >= 0 &&
-              state.cohesive.status[at(element)] >= CohesiveStatus::broken && !waits(state, next)) {
-            reached.push_back(next);
-          }
-        }
+    DamagedTriangle& d = state.damage.triangles[at(reached.triangles[t++])];
+    if (d.cavity >= 0) continue;
+    const auto& vertices = mesh.triangles[at(d.triangle)];
+    d.cavity = reach(state, vertices, reached);
+    for (const Index v : vertices) {
+      for (Index k = edges_of_vertex_first_[at(v)]; k < edges_of_vertex_first_[at(v) + 1]; ++k) {
+        if (mesh.edges[at(edges_of_vertex_[at(k)])].kind == EdgeKind::outer) leaks_ = true;
       }
     }
   }
   spread(state, before);
 }
 
-void Fluid::connect_triangles(State& state, std::span<const Index> failed) {
+// The fluid comes to these vertices, at one of which it was: on from the others into what is broken there and
+// waits for it. @return the cavity that it is of
+Index Fluid::reach(State& state, std::span<const Index> vertices, Reached& reached) const {
   FluidState& f = state.fluid;
   const Mesh& mesh = *state.mesh;
-  std::vector<Index> reached;
-  const auto touches = [&](const DamagedTriangle& d) {
-    return std::ranges::any_of(mesh.triangles[at(d.triangle)],
-                               [&](Index v) { return f.cavity_of_vertex[at(v)] >= 0; });
-  };
-  for (const Index i : failed) {
-    const DamagedTriangle& d = state.damage.triangles[at(i)];
-    if (d.cavity < 0 && touches(d)) reached.push_back(i);
+  Index cavity = -1;
+  for (const Index v : vertices) {
+    const Index c = f.cavity_of_vertex[at(v)];
+    if (c >= 0) cavity = cavity < 0 ? c : std::min(cavity, c);
   }
-  if (reached.empty()) return;
-  const Spread before = before_spread(state);
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    DamagedTriangle& d = state.damage.triangles[at(reached[i])];
-    if (d.cavity >= 0) continue;
-    const auto& vertices = mesh.triangles[at(d.triangle)];
-    Index cavity = -1;
-    for (const Index v : vertices) {
-      const Index c = f.cavity_of_vertex[at(v)];
-      if (c >= 0) cavity = cavity < 0 ? c : std::min(cavity, c);
-    }
-    d.cavity = cavity;
-    for (const Index v : vertices) {
-      const Index other = f.cavity_of_vertex[at(v)];
-      f.cavity_of_vertex[at(v)] = cavity;
-      if (other >= 0 && other != cavity) enter(state, cavity, other);
-      for (Index k = edges_of_vertex_first_[at(v)]; k < edges_of_vertex_first_[at(v) + 1]; ++k) {
-        const Edge& edge = mesh.edges[at(edges_of_vertex_[at(k)])];
-        if (edge.kind == EdgeKind::outer) leaks_ = true;
-        if (other >= 0) continue;  // it waited for nothing there
-        for (const Index t : edge.triangle) {
-          const Index next = t >= 0 ? state.damage.of_triangle[at(t)] : -1;
-          if (next >= 0 && state.damage.triangles[at(next)].failed) reached.push_back(next);
-        }
+  for (const Index v : vertices) {
+    const Index other = f.cavity_of_vertex[at(v)];
+    f.cavity_of_vertex[at(v)] = cavity;
+    if (other >= 0 && other != cavity) enter(state, cavity, other);
+    if (other >= 0) continue;  // nothing waited there
+    for (Index k = edges_of_vertex_first_[at(v)]; k < edges_of_vertex_first_[at(v) + 1]; ++k) {
+      const Index next = edges_of_vertex_[at(k)];
+      const Index element = state.cohesive.of_edge[at(next)];
+      if (f.cavity_of_edge[at(next)] < 0 && element >= 0 &&
+          state.cohesive.status[at(element)] >= CohesiveStatus::broken && !waits(state, next)) {
+        reached.edges.push_back(next);
+      }
+      for (const Index t : mesh.edges[at(next)].triangle) {
+        const bool rock = t >= 0 && !state.damage.of_triangle.empty();
+        const Index damaged = rock ? state.damage.of_triangle[at(t)] : -1;
+        if (damaged >= 0 && state.damage.triangles[at(damaged)].failed) reached.triangles.push_back(damaged);
       }
     }
   }
-  spread(state, before);
+  return cavity;
 }
 
 // A cavity takes up another that it has come to.
@@ -309,6 +308,10 @@ void Fluid::advance(State& state, double dt) {
   push_.assign(f.cavities.size(), 0.0);
   for (std::size_t c = 0; c < f.cavities.size(); ++c) {
     Cavity& cavity = f.cavities[c];
+    if (held_) {
+      push_[c] = *held_;
+      continue;
+    }
     if (compliance_[c] == 0.0 && volume_[c] == 0.0) continue;  // merged into another
     const double mass_in = c == 0 ? injected * fluid_.density : 0.0;
     const double before = cavity.pressure;

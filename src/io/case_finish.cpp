@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <vector>
@@ -22,10 +24,12 @@ void check_wellbore(const Case& scene, const GivenKeys& given) {
          fmt::format("wellbore.diameter = {} m does not fit the domain of {} m x {} m", diameter,
                      scene.domain.width, scene.domain.height));
   }
+  const bool pumped_notch =
+      std::ranges::any_of(scene.notches, [](const Case::Notch& n) { return n.fluid != "none"; });
   if (diameter <= 0.0 && !scene.fluid.pump.empty() && scene.mesh.file.empty() &&
-      scene.fracture.notch <= 0.0) {
+      scene.fracture.notch <= 0.0 && !pumped_notch) {
     fail(given.place("wellbore.diameter"),
-         "wellbore.diameter = 0 leaves the pump without a wellbore to inject into");
+         "wellbore.diameter = 0 leaves the pump without a wellbore or notch to inject into");
   }
   if (scene.wellbore.segments > 0 && scene.wellbore.segments < 3) {
     fail(given.place("wellbore.segments"),
@@ -79,6 +83,79 @@ void check_notch(const Case& scene, const GivenKeys& given) {
          fmt::format("fracture.notch = {} m ends outside the domain, which is {} m wide", notch,
                      scene.domain.width));
   }
+}
+
+void finish_notches(Case& scene, const GivenKeys& given) {
+  for (std::size_t row = 0; row < scene.notches.size(); ++row) {
+    Case::Notch& notch = scene.notches[row];
+    const auto stop = [&](const std::string& why) {
+      fail(given.place(fmt::format("notches.{}.x1", row)), fmt::format("notch {} {}", row + 1, why));
+    };
+    const double a = 0.5 * scene.domain.width, b = 0.5 * scene.domain.height;
+    const double near = 1e-9 * std::max(a, b);
+    if (notch.fluid.empty()) notch.fluid = scene.fluid.pump.empty() ? "none" : "pumped";
+    if (!scene.mesh.file.empty()) stop("cannot be cut into mesh.file: give a mesh.generator");
+    if (std::hypot(notch.x2 - notch.x1, notch.y2 - notch.y1) <= near) stop("has no length");
+    if (notch.fluid == "pumped" && scene.fluid.pump.empty())
+      stop("has fluid = \"pumped\", but there is no [[fluid.pump]]");
+    for (const auto& [x, y] : {std::pair{notch.x1, notch.y1}, std::pair{notch.x2, notch.y2}}) {
+      if (std::abs(x) > a + near || std::abs(y) > b + near)
+        stop(fmt::format("ends at ({} m, {} m), outside the domain", x, y));
+      if (notch.fluid == "pumped" && (std::abs(x) > a - near || std::abs(y) > b - near))
+        stop("reaches the boundary, where its fluid would run out: write fluid = \"none\", or end it inside");
+    }
+  }
+}
+
+bool across_is_x(const Case::Load& load) { return load.side == "left" || load.side == "right"; }
+
+/// What is said of one component of a load.
+struct LoadComponent {
+  std::string_view axis;
+  const std::optional<double>&traction, &velocity, &displacement;
+  bool held;
+};
+
+void finish_load(Case::Load& load, const std::string& path, const GivenKeys& given) {
+  const auto stop = [&](const std::string& why) {
+    fail(given.place(path), fmt::format("load \"{}\": {}", load.name, why));
+  };
+  if (load.side.empty()) stop("give its side: \"left\", \"right\", \"bottom\" or \"top\"");
+  if (load.from && load.to && *load.from > *load.to)
+    stop(fmt::format("from = {} m is above to = {} m", *load.from, *load.to));
+  const bool fixed = load.support == "fixed", roller = load.support == "roller";
+  const std::array<LoadComponent, 2> components{
+      {{"x", load.traction_x, load.velocity_x, load.displacement_x, fixed || (roller && across_is_x(load))},
+       {"y", load.traction_y, load.velocity_y, load.displacement_y,
+        fixed || (roller && !across_is_x(load))}}};
+  int said = 0;
+  for (const LoadComponent& c : components) {
+    const int here = int{c.traction.has_value()} + int{c.velocity.has_value()} +
+                     int{c.displacement.has_value()} + int{c.held};
+    if (here > 1)
+      stop(fmt::format("{} has more than one of traction, velocity, displacement and support", c.axis));
+    if (c.displacement && load.ramp <= 0.0) stop("a displacement needs a ramp, the time that it takes");
+    said += here;
+  }
+  if (said == 0) stop("it does nothing: give a traction, a velocity, a displacement or a support");
+}
+
+void finish_loads(Case& scene, const GivenKeys& given) {
+  for (std::size_t row = 0; row < scene.loads.size(); ++row) {
+    Case::Load& load = scene.loads[row];
+    const std::string path = fmt::format("loads.{}", row);
+    if (load.name.empty()) load.name = load.side;
+    finish_load(load, path, given);
+    for (std::size_t other = 0; other < row; ++other) {
+      if (scene.loads[other].name == load.name)
+        fail(given.place(path), fmt::format("two loads are called \"{}\": give them a name", load.name));
+    }
+  }
+  if (scene.loads.empty()) return;
+  if (scene.boundary.outer == "absorbing")
+    fail(given.place("boundary.outer"), "boundary.outer = \"absorbing\" takes no [[loads]]");
+  if (scene.run.regime == "quasi_static")
+    fail(given.place("run.regime"), "run.regime = \"quasi_static\" takes no [[loads]] yet");
 }
 
 void resolve_mesh_file(Case& scene, const GivenKeys& given) {
@@ -180,10 +257,6 @@ void finish_damage(Case& scene, const GivenKeys& given) {
     }
     return;
   }
-  if (!scene.joints.empty() || !scene.joint_sets.empty()) {
-    fail(given.place("cohesive.insertion"),
-         "cohesive.insertion = \"none\": joints need cohesive elements, take \"on_demand\" or \"all\"");
-  }
   if (scene.run.regime == "quasi_static")
     fail(given.place("run.regime"),
          "run.regime = \"quasi_static\" needs cohesive elements, not insertion = \"none\"");
@@ -244,6 +317,8 @@ void finish_case(ReadCase& read) {
   resolve_mesh_file(scene, given);
   check_mesh(scene, given);
   check_notch(scene, given);
+  finish_notches(scene, given);
+  finish_loads(scene, given);
   finish_run(scene, given);
   finish_pump(scene, given);
   finish_damping(scene.damping, given);

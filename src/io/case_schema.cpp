@@ -228,8 +228,23 @@ std::vector<TableSpec> make_tables() {
       number("ratio", slot<&C::damping, &C::Damping::ratio>(), plain, not_negative, Need::never, "of the critical viscosity 2 h sqrt(E rho), instead of viscosity", "0.1"),
     }},
     {"boundary", {
-      choice("outer", slot<&C::boundary, &C::Boundary::outer>(), {"fixed", "absorbing"}, "what the outer boundary does"),
+      choice("outer", slot<&C::boundary, &C::Boundary::outer>(), {"fixed", "absorbing", "free"}, "what the outer boundary does where it has no load; free: it moves, under the in-situ stress as a constant load"),
     }},
+    rows_of<&C::loads>("loads", {
+      named("name", slot<&C::loads, &C::Load::name>(), "in the columns of history.csv", "its side"),
+      choice("side", slot<&C::loads, &C::Load::side>(), {"left", "right", "bottom", "top"}, "of the domain, on which it acts", "needed"),
+      number("from", slot<&C::loads, &C::Load::from>(), length, any, Need::never, "where it begins along the side (x, or y on left and right); the same as to: one point", "the side's end"),
+      number("to", slot<&C::loads, &C::Load::to>(), length, any, Need::never, "where it ends", "the side's end"),
+      choice("support", slot<&C::loads, &C::Load::support>(), {"roller", "fixed"}, "roller: held across the side, free along it; fixed: held in x and y", "none"),
+      number("traction_x", slot<&C::loads, &C::Load::traction_x>(), pressure, any, Need::never, "force per area in x, that does not turn with the side", "none"),
+      number("traction_y", slot<&C::loads, &C::Load::traction_y>(), pressure, any, Need::never, "force per area in y", "none"),
+      number("velocity_x", slot<&C::loads, &C::Load::velocity_x>(), speed, any, Need::never, "given velocity in x; 0 holds it", "none"),
+      number("velocity_y", slot<&C::loads, &C::Load::velocity_y>(), speed, any, Need::never, "given velocity in y; 0 holds it", "none"),
+      number("displacement_x", slot<&C::loads, &C::Load::displacement_x>(), length, any, Need::never, "displacement in x at the end of the ramp, held from then on", "none"),
+      number("displacement_y", slot<&C::loads, &C::Load::displacement_y>(), length, any, Need::never, "displacement in y at the end of the ramp", "none"),
+      choice("contact", slot<&C::loads, &C::Load::contact>(), {"bonded", "one_sided"}, "one_sided: a support or given motion across the side pushes the body and never pulls it, as a striker does"),
+      number("ramp", slot<&C::loads, &C::Load::ramp>(), duration, not_negative, Need::never, "time over which it grows smoothly from nothing; 0: at once"),
+    }),
     {"stress", {
       number("xx", slot<&C::stress, &Sym2::xx>(), pressure, any, Need::never, "far-field effective stress, tension positive"),
       number("yy", slot<&C::stress, &Sym2::yy>(), pressure, any, Need::never, "far-field effective stress, tension positive"),
@@ -267,6 +282,13 @@ std::vector<TableSpec> make_tables() {
       number("residual_aperture", slot<&C::fracture, &C::Fracture::residual_aperture>(), length, positive, Need::never, "opening of closed faces without effective stress"),
       number("closure_stress", slot<&C::fracture, &C::Fracture::closure_stress>(), pressure, positive, Need::never, "effective stress that closes it to a tenth"),
     }},
+    rows_of<&C::notches>("notches", {
+      number("x1", slot<&C::notches, &C::Notch::x1>(), length, any, Need::always, "one end of the slit, cut before the run; on the boundary for an edge notch"),
+      number("y1", slot<&C::notches, &C::Notch::y1>(), length, any, Need::always, "one end"),
+      number("x2", slot<&C::notches, &C::Notch::x2>(), length, any, Need::always, "the other end"),
+      number("y2", slot<&C::notches, &C::Notch::y2>(), length, any, Need::always, "the other end"),
+      choice("fluid", slot<&C::notches, &C::Notch::fluid>(), {"pumped", "none"}, "whether the pumped fluid is in it", "pumped where there is a pump"),
+    }),
     {"run", {
       choice("regime", slot<&C::run, &C::Run::regime>(), {"auto", "dynamic", "quasi_static"}, "milliseconds by explicit steps, field time by implicit ones, or chosen by the numbers"),
       number("end_time", slot<&C::run, &C::Run::end_time>(), duration, positive, Need::always, "simulated time at the end"),
@@ -326,7 +348,8 @@ bool is_needed(const KeySpec& key, const Case& scene) {
     case Need::without_mesh_file:
       return scene.mesh.file.empty();
     case Need::with_pump:
-      return scene.mesh.file.empty() && !scene.fluid.pump.empty() && scene.fracture.notch <= 0.0;
+      return scene.mesh.file.empty() && !scene.fluid.pump.empty() && scene.fracture.notch <= 0.0 &&
+             scene.notches.empty();
   }
   return false;
 }

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "crackle/io/output.hpp"
 
 namespace crackle {
 
-/// First line of history.csv, with its line end.
-std::string history_header();
+/// First line of history.csv, with its line end. @param loads their names
+std::string history_header(const std::vector<std::string>& loads = {});
 /// A row, with its line end; numbers in the shortest form that reads back to the same value.
 std::string history_line(const HistoryRow& row);
 /// The same of a run in field time.

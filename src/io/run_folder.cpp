@@ -102,7 +102,7 @@ void RunFolder::open_tables() {
 }
 
 void RunFolder::write_headers() {
-  history_->append(field_time_ ? field_time_header() : history_header());
+  history_->append(field_time_ ? field_time_header() : history_header(loads_));
   events_->append(events_header());
 }
 

@@ -131,7 +131,7 @@ void pressure_loss(const Scene& scene, double end_time, Lines& lines) {
 void domain_size(const Scene& scene, const MeshMeasure& mesh, double end_time, Lines& lines) {
   const WaveSpeeds speed = wave_speeds(scene.stiffness, scene.density);
   const double back = 2.0 * mesh.half_width / speed.p;
-  if (!scene.absorbing_boundary && back < end_time) {
+  if (scene.fluid && scene.loads.empty() && !scene.absorbing_boundary && back < end_time) {
     lines.push_back(
         fmt::format("warning: waves from the wellbore are back from the fixed boundary after {}, the run "
                     "lasts {}: take a domain "
@@ -258,7 +258,7 @@ std::string scene_error(const Scene& scene) {
 std::vector<std::string> scene_warnings(const Scene& scene, double end_time, const StableStep& stable) {
   Lines lines;
   const MeshMeasure mesh = measure_mesh(*scene.mesh);
-  if (scene.law) {
+  if (scene.law && !scene.damage.law) {
     penalty_compliance(scene, mesh, lines);
     coarse_edges(scene, mesh, lines);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -50,7 +51,8 @@ std::vector<Index> wetted_edges(const Scene& scene) {
   for (Index e = 0; e < scene.mesh->edge_count(); ++e) {
     if (scene.mesh->edges[at(e)].kind == EdgeKind::wellbore) edges.push_back(e);
   }
-  edges.insert(edges.end(), scene.cracks.begin(), scene.cracks.end());
+  std::ranges::copy_if(scene.cracks, std::back_inserter(edges),
+                       [&](Index e) { return !std::ranges::binary_search(scene.dry_cracks, e); });
   return edges;
 }
 
@@ -104,7 +106,12 @@ Simulation::Simulation(Scene scene)
     if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
     fluid_->fill(state_, wetted_edges(scene_), scene_.initial_pressure);
   }
-  if (!scene_.absorbing_boundary) fix_nodes(state_, EdgeKind::outer);
+  if (scene_.free_boundary || !scene_.loads.empty()) {
+    loads_.emplace(*scene_.mesh, scene_.loads);
+    loads_->hold(state_, scene_.free_boundary);
+  } else if (!scene_.absorbing_boundary) {
+    fix_nodes(state_, EdgeKind::outer);
+  }
   stable_ = stable_step(state_, bulk_, cohesive());
   if (!split && scene_.law) {
     stable_.limit *= scene_.insertion.step;
@@ -155,6 +162,10 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
   }
   if (scene_.absorbing_boundary) boundary_.emplace(std::move(memory.boundary));
+  if (scene_.free_boundary || !scene_.loads.empty()) {
+    loads_.emplace(*scene_.mesh, scene_.loads);
+    loads_->restore(std::move(memory.loads));
+  }
   tiles_.emplace(state_, physics());
 }
 
@@ -165,10 +176,15 @@ Sym2 Simulation::stress(Index triangle) const {
 }
 
 SimulationMemory Simulation::memory() const {
-  return {reference_, scale_,
-          stable_,    geostatic_slips_,
-          slowed_,    rough_insertions_,
-          stressed_,  boundary_ ? boundary_->nodes() : std::vector<BoundaryNode>{}};
+  return {reference_,
+          scale_,
+          stable_,
+          geostatic_slips_,
+          slowed_,
+          rough_insertions_,
+          stressed_,
+          boundary_ ? boundary_->nodes() : std::vector<BoundaryNode>{},
+          loads_ ? loads_->memory() : LoadsMemory{}};
 }
 
 // Displacement of every vertex by the excavation and the initial pressure, the rock still whole and
@@ -190,7 +206,7 @@ std::vector<Vec2> Simulation::geostatic_displacement() {
   std::vector<Vec2> displacement = solver.displacement(wall_loads(wet, fluid));
   const bool whole = (scene_.law && scene_.insertion.on_demand) || scene_.damage.law;
   if (fluid && scene_.fast_forward && whole && scene_.damage.cut.empty() && scene_.cracks.empty() &&
-      scene_.joints.empty() && !scene_.absorbing_boundary) {
+      scene_.joints.empty() && !scene_.absorbing_boundary && !scene_.free_boundary && scene_.loads.empty()) {
     find_ramp(solver, wet, fluid, displacement);
   }
   return displacement;
@@ -283,20 +299,7 @@ void Simulation::settle() {
     cohesive_->add_tractions(state_);
     wet_joints();
   }
-  if (scene_.absorbing_boundary) {
-    for (Index t = 0; t < mesh.triangle_count(); ++t) {
-      add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(),
-                         &forces[at(3 * t)]);
-    }
-    std::vector<char> outer(mesh.vertices.size(), 0);
-    for (const Edge& edge : mesh.edges) {
-      if (edge.kind == EdgeKind::outer) outer[at(edge.vertex[0])] = outer[at(edge.vertex[1])] = 1;
-    }
-    for (std::size_t c = 0; c < forces.size(); ++c) {
-      forces[c] = outer[at(mesh.triangles[c / 3][c % 3])] ? -forces[c] : Vec2{};
-    }
-    boundary_.emplace(state_, scene_.stiffness, scene_.density, forces);
-  }
+  if (scene_.absorbing_boundary || loads_) bear_geostatic_loads(std::move(forces));
   tiles_.emplace(state_, physics());
   if (geostatic_slips_ > 0 || !scene_.cracks.empty() || !scene_.damage.cut.empty()) relax();
   state_.dissipation = {};
@@ -312,6 +315,23 @@ void Simulation::settle() {
   if (fluid_) reference_.fluid = fluid_->energy(state_);
 }
 
+// The outer boundary that moves bears as constant loads what held it until now.
+void Simulation::bear_geostatic_loads(std::vector<Vec2> forces) {
+  const Mesh& mesh = *scene_.mesh;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), &forces[at(3 * t)]);
+  }
+  if (loads_) return loads_->bear(state_, forces);
+  std::vector<char> outer(mesh.vertices.size(), 0);
+  for (const Edge& edge : mesh.edges) {
+    if (edge.kind == EdgeKind::outer) outer[at(edge.vertex[0])] = outer[at(edge.vertex[1])] = 1;
+  }
+  for (std::size_t c = 0; c < forces.size(); ++c) {
+    forces[c] = outer[at(mesh.triangles[c / 3][c % 3])] ? -forces[c] : Vec2{};
+  }
+  boundary_.emplace(state_, scene_.stiffness, scene_.density, forces);
+}
+
 void Simulation::relax() {
   // Kinetic damping: whenever the kinetic energy has passed a peak, everything stops and starts again.
   // Well below the stable step: near it, stopping at every peak can lock into a short cycle.
@@ -322,6 +342,9 @@ void Simulation::relax() {
   for (Index t = 0; t < scene_.mesh->triangle_count(); ++t)
     nothing += 1e-22 * scene_.stiffness.largest() * bulk_.area(t);
   const int most = 200000;
+  const bool pressed = fluid_ && scene_.initial_pressure != 0.0 &&
+                       scene_.cracks.size() + scene_.damage.cut.size() > scene_.dry_cracks.size();
+  if (pressed) fluid_->hold(scene_.initial_pressure);  // a crack has no volume yet to hold fluid by its mass
   for (int i = 0; i < most; ++i) {
     state_.time = -2.0 * dt;  // before the pump starts
     advance(dt, nullptr);
@@ -336,6 +359,10 @@ void Simulation::relax() {
       if (before <= std::max(1e-9 * peak, nothing)) {
         state_.time = 0.0;
         state_.step = 0;
+        if (pressed) {
+          fluid_->hold({});
+          fluid_->refill(state_, scene_.initial_pressure);
+        }
         return;
       }
       kinetic = 0.0;
@@ -529,6 +556,10 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
   }
 }
 
+std::vector<LoadRecord> Simulation::take_loads() {
+  return loads_ ? loads_->take(state_) : std::vector<LoadRecord>{};
+}
+
 double Simulation::stable_limit() const {
   const double contact = contact_ ? contact_->largest_frequency_squared(state_) : 0.0;
   if (contact == 0.0) return slowed_ * stable_.limit;
@@ -568,7 +599,7 @@ void Simulation::advance(double dt, Energies* account) {
   heed_new_histories();
   if (cohesive_) {
     cohesive_->advance_histories(state_);
-    if (!stressed_.empty()) insert_stressed();
+    if (!damage_ && !stressed_.empty()) insert_stressed();
     stopwatch_.lap(Stopwatch::cohesive);
   }
   if (damage_) {
@@ -613,9 +644,11 @@ void Simulation::advance(double dt, Energies* account) {
     stopwatch_.lap(Stopwatch::ledger);
   }
   if (boundary_) boundary_->begin(state_);
+  if (loads_) loads_->begin(state_);
   move_nodes(dt);
   if (contact_) contact_->apply(state_, dt);
-  const double radiated = boundary_ ? boundary_->apply(state_, dt) : 0.0;
+  double radiated = boundary_ ? boundary_->apply(state_, dt) : 0.0;
+  if (loads_) radiated += loads_->apply(state_, dt);
   stopwatch_.lap(Stopwatch::rock);
   if (fluid_) {
     fluid_->advance(state_, dt);
@@ -715,6 +748,7 @@ double Simulation::imbalance() {
     add_element_forces(&state_.element_on_side[at(3 * t)], state_.cohesive.force.data(), &forces[at(3 * t)]);
     for (Index i = 0; i < 3; ++i) sum[at(state_.node_of_corner[at(3 * t + i)])] += forces[at(3 * t + i)];
   }
+  if (loads_) loads_->balance(state_, sum);
   double unbalanced = 0.0;
   for (std::size_t n = 0; n < sum.size(); ++n) {
     if (state_.inverse_mass[n] > 0.0) unbalanced = std::max(unbalanced, norm(sum[n]));

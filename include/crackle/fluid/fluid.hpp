@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,10 @@ class Fluid {
   /// the given pressure [Pa]. @return its number
   Index fill(State& state, std::span<const Index> edges, double pressure);
 
+  /// From now on every cavity keeps this pressure [Pa], whatever its volume is (the geostatic stage); none:
+  /// it follows from mass and volume.
+  void hold(std::optional<double> pressure) { held_ = pressure; }
+
   /// Sets every cavity to the mass that fills its present volume at a pressure [Pa].
   void refill(State& state, double pressure);
 
@@ -41,6 +46,7 @@ class Fluid {
   void connect(State& state, std::span<const Index> broken);
 
   /// The same for damaged triangles that failed: the fluid enters those that share a vertex with a cavity.
+  /// From elements it goes on into triangles, and from triangles into elements.
   /// @param failed numbers of triangles in state.damage
   void connect_triangles(State& state, std::span<const Index> failed);
 
@@ -96,6 +102,12 @@ class Fluid {
     Vec2 gradient;
   };
   bool waits(const State& state, Index edge) const;
+  struct Reached {  // to be wetted, in order found
+    std::vector<Index> edges;
+    std::vector<Index> triangles;  // numbers in state.damage
+  };
+  void wet(State& state, Reached reached);
+  Index reach(State& state, std::span<const Index> vertices, Reached& reached) const;
   void enter(State& state, Index cavity, Index other) const;
   struct Spread {  // what the fluid held and did before it spread
     double energy, power;
@@ -114,6 +126,7 @@ class Fluid {
   std::vector<Wet> wet_;
   std::vector<double> rock_;                        // per cavity: area of wet triangles at rest [m2]
   std::vector<double> volume_, compliance_, push_;  // per cavity: V(x), s, pressure that pushes
+  std::optional<double> held_;
   bool leaks_ = false;
   bool joints_as_they_open_ = false;
 };

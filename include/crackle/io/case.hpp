@@ -136,8 +136,23 @@ struct Case {
   } damping;
 
   struct Boundary {
-    std::string outer = "fixed";  ///< "fixed" or "absorbing"
+    std::string outer = "fixed";  ///< "fixed", "absorbing" or "free"
   } boundary;
+
+  /// A load or support on a side of the domain, or a part of it. A component has at most one of traction,
+  /// velocity and displacement; one that has none is free.
+  struct Load {
+    std::string name;                ///< in history.csv; default: its side
+    std::string side;                ///< "left", "right", "bottom" or "top"
+    std::optional<double> from, to;  ///< along the side [m]; default: its ends
+    std::string support;             ///< "roller": held across the side, "fixed": in both, or none
+    std::optional<double> traction_x, traction_y;          ///< [Pa]
+    std::optional<double> velocity_x, velocity_y;          ///< [m/s]
+    std::optional<double> displacement_x, displacement_y;  ///< [m]
+    double ramp = 0.0;                                     ///< time over which it grows from nothing [s]
+    std::string contact = "bonded";  ///< or "one_sided": across the side it pushes, and never pulls
+  };
+  std::vector<Load> loads;
 
   Sym2 stress;           ///< far-field effective stress [Pa], tension positive: [stress] xx, yy, xy
   Sym2 stress_gradient;  ///< its change per metre of depth (−y) [Pa/m]: [stress] gradient_xx, gradient_yy
@@ -178,6 +193,14 @@ struct Case {
     double residual_aperture = 1e-4;  ///< of mated faces without effective stress [m]
     double closure_stress = 30e6;     ///< that leaves a tenth of it [Pa]
   } fracture;
+
+  /// A straight slit, cut before the run; its faces touch, and bear compression and friction.
+  struct Notch {
+    double x1 = 0.0, y1 = 0.0;  ///< one end [m]
+    double x2 = 0.0, y2 = 0.0;  ///< the other [m]
+    std::string fluid;  ///< "pumped": holds the fluid, "none": dry; default: pumped where there is a pump
+  };
+  std::vector<Notch> notches;
 
   struct Run {
     std::string regime = "auto";  ///< "auto", "dynamic" or "quasi_static"

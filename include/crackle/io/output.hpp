@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crackle/core/errors.hpp"
@@ -14,6 +15,12 @@
 #include "crackle/seismic/event.hpp"
 
 namespace crackle {
+
+/// What a load did since the row before.
+struct LoadRow {
+  Vec2 force;         ///< on the body [N/m]: mean over the time
+  Vec2 displacement;  ///< [m]
+};
 
 /// One row of history.csv; the column names there are these with their units.
 struct HistoryRow {
@@ -29,6 +36,7 @@ struct HistoryRow {
          energy_friction = 0.0, energy_viscous = 0.0, energy_fluid = 0.0;  ///< [J/m]
   double work_external = 0.0;                                              ///< [J/m]
   double energy_residual = 0.0;                                            ///< [-]
+  std::vector<LoadRow> loads;                                              ///< one each
 };
 
 /// One row of history.csv of a run in field time. Volumes and rates of the plane are per metre of height
@@ -161,6 +169,8 @@ class RunFolder {
   /// resolved.toml. Like every other write here: @throws CaseError with the file and the reason
   /// (disk full, no permission).
   void write_resolved(const Case& scene);
+  /// Names of the loads, which get columns: before anything is written.
+  void set_loads(std::vector<std::string> names) { loads_ = std::move(names); }
   /// Appends to history.csv.
   void append_history(const HistoryRow& row);
   /// The run is one in field time: before anything of it is written.
@@ -205,6 +215,7 @@ class RunFolder {
   std::string path_;
   Use use_;
   bool field_time_ = false;
+  std::vector<std::string> loads_;
   std::unique_ptr<AppendedFile> history_;
   std::unique_ptr<AppendedFile> events_;
   std::unique_ptr<AppendedFile> log_;

@@ -51,6 +51,18 @@ void members(GuardMemory& m, V&& v) {
 }
 
 template <class V>
+void members(LoadImpulse& i, V&& v) {
+  v("impulse", i.impulse);
+  v("time", i.time);
+}
+
+template <class V>
+void members(LoadsMemory& m, V&& v) {
+  v("constant", m.constant);
+  v("impulses", m.impulses);
+}
+
+template <class V>
 void members(SimulationMemory& m, V&& v) {
   v("reference", m.reference);
   v("scale", m.scale);
@@ -60,6 +72,7 @@ void members(SimulationMemory& m, V&& v) {
   v("rough_insertions", m.rough_insertions);
   v("stressed", m.stressed);
   v("boundary", m.boundary);
+  v("loads", m.loads);
 }
 
 namespace quasi_static {

@@ -13,6 +13,7 @@
 #include "crackle/solid/bulk.hpp"
 #include "crackle/solid/damage.hpp"
 #include "crackle/solve/boundary.hpp"
+#include "crackle/solve/loads.hpp"
 #include "crackle/solve/ramp.hpp"
 #include "crackle/solve/stopwatch.hpp"
 #include "crackle/solve/tiles.hpp"
@@ -34,7 +35,7 @@ struct CutTriangle {
   Vec2 normal;  ///< of its crack, unit
 };
 
-/// Rock that breaks by smeared damage of its triangles instead of cohesive elements.
+/// Rock that breaks by smeared damage of its triangles instead of its edges.
 struct DamageChoice {
   std::shared_ptr<const SofteningLaw> law;  ///< nullptr: none
   std::vector<DamageMaterial> materials;
@@ -58,13 +59,17 @@ struct Scene {
   Sym2 stress;                                       ///< in situ, effective, at the origin [Pa]
   Sym2 stress_gradient;                              ///< its change per metre of depth, −y; xy is 0 [Pa/m]
   Bulk::Damping damping;
-  std::shared_ptr<const CohesiveLaw> law;  ///< nullptr: no cohesive elements
-  DamageChoice damage;                     ///< without a law here and there the rock cannot break
+  std::shared_ptr<const CohesiveLaw>
+      law;  ///< nullptr: no cohesive elements; beside damage: on cracks and joints only, insertion on demand
+  DamageChoice damage;  ///< without a law here and there the rock cannot break
   CohesiveMaterial cohesive;
   InsertionPolicy insertion;
   ContactMaterial contact;          ///< of faces that have moved past their partner
   bool absorbing_boundary = false;  ///< outer boundary: absorbing, or fixed
+  bool free_boundary = false;       ///< or free: it bears the in-situ stress as a constant load
+  std::vector<Load> loads;          ///< on parts of it, where it is then not held; not with an absorbing one
   std::vector<Index> cracks;        ///< mesh edges broken from the start
+  std::vector<Index> dry_cracks;    ///< those of them that the fluid is not in at first, ascending
   std::vector<JointEdge> joints;    ///< ascending by edge
   std::vector<CohesiveMaterial>
       joint_materials;  ///< the strengths of one that is not bonded are not asked for
@@ -91,7 +96,7 @@ struct Energies {
   double friction = 0.0;
   double viscous = 0.0;
   double fluid = 0.0;
-  double external = 0.0;  ///< work of the pump, less what an absorbing boundary took
+  double external = 0.0;  ///< work of the pump and of loads, less what an absorbing boundary took
   double residual = 0.0;  ///< |stored + dissipated − external| over the largest of them so far (or what
                           ///< strains of 3e-7 everywhere hold, if that is more)
 };
@@ -107,6 +112,7 @@ struct SimulationMemory {
   std::vector<std::uint8_t>
       stressed;  ///< per triangle, of the last step; empty: nothing is inserted on demand
   std::vector<BoundaryNode> boundary;  ///< of an absorbing boundary
+  LoadsMemory loads;
 };
 
 /// The dynamic loop: explicit steps of a scene from its geostatic equilibrium on.
@@ -153,6 +159,8 @@ class Simulation {
   Energies step_and_account(double dt);
   /// Events of the last step: what broke, and slips of joints that ended.
   const std::vector<SeismicEvent>& new_events() const { return new_events_; }
+  /// Forces and displacements of Scene::loads, one each, since the last call.
+  std::vector<LoadRecord> take_loads();
   /// Ends the slips of joints that are under way, at the end of a run.
   std::vector<SeismicEvent> end_slips() { return finish_slip(state_.slips, medium()); }
 
@@ -164,6 +172,7 @@ class Simulation {
   void find_ramp(const StaticSolver& solver, State& wet, std::optional<Fluid>& fluid,
                  const std::vector<Vec2>& first);
   void settle();
+  void bear_geostatic_loads(std::vector<Vec2> forces);
   Energies with_residual(Energies e);
   void relax();
   void advance(double dt, Energies* account);
@@ -197,6 +206,7 @@ class Simulation {
   std::optional<GeneralContact> contact_;
   std::optional<Fluid> fluid_;
   std::optional<AbsorbingBoundary> boundary_;
+  std::optional<Loads> loads_;
   StableStep stable_;
   Stopwatch stopwatch_;
   std::vector<SeismicEvent> new_events_;

@@ -67,8 +67,8 @@ std::vector<BadCase> read_blocks(const fs::path& path) {
 
 std::vector<BadCase> all_blocks() {
   std::vector<BadCase> all;
-  for (const char* file :
-       {"joints.txt", "keys.txt", "overrides.txt", "relations.txt", "syntax.txt", "values.txt"}) {
+  for (const char* file : {"joints.txt", "keys.txt", "loads.txt", "overrides.txt", "relations.txt",
+                           "syntax.txt", "values.txt"}) {
     for (BadCase& block : read_blocks(folder / file)) all.push_back(std::move(block));
   }
   return all;

@@ -48,6 +48,22 @@ TEST(HistoryCsv, HasTheAgreedColumnsAndExactValues) {
   EXPECT_EQ(line, "0.30000000000000004,0.3333333333333333,0,0,0,0,0,0,7,0,0,0,0,0,0,0,0,0,-5e-324");
 }
 
+TEST(HistoryCsv, HasFourColumnsALoad) {
+  const ScratchFolder scratch;
+  HistoryRow row;
+  row.loads = {{{1.0, -2.0}, {3e-6, 0.25}}};
+  RunFolder run(scratch / "run");
+  run.set_loads({"top"});
+  run.append_history(row);
+  std::istringstream lines(content(scratch / "run/history.csv"));
+  std::string header, line;
+  std::getline(lines, header);
+  std::getline(lines, line);
+  EXPECT_TRUE(header.ends_with(
+      ",energy_residual,top_force_x_N_m,top_force_y_N_m,top_displacement_x_m,top_displacement_y_m"));
+  EXPECT_TRUE(line.ends_with(",0,1,-2,3e-06,0.25")) << line;
+}
+
 TEST(EventsCsv, ReadsBackExactly) {
   const ScratchFolder scratch;
   std::vector<SeismicEvent> events = sample_events(3e-3);

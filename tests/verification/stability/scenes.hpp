@@ -3,6 +3,7 @@
 // Small scenes that drive the program to where explicit FDEM codes fail: the list T1 to T15 of the stability
 // map (cases/stability). Each runs with one setting at one point of the map:
 //   all, on_demand, tied            which edges carry elements
+//   damage                          none but those of the notch: smeared damage
 //   ... "-naive"                    what the program does not do: shown beside, to be seen to fail
 #pragma once
 

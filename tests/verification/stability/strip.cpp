@@ -50,7 +50,13 @@ Row strip(const std::string& setting, double x) {
   scene.cohesive.fracture_energy_mode1 = energy;
   scene.cohesive.fracture_energy_mode2 = 16.0 * energy;
   scene.cohesive.penalty = scene.cohesive.tangential_penalty = 10.0 * granite::young_modulus;
-  scene.insertion.on_demand = setting == "on_demand";
+  scene.insertion.on_demand = setting != "all";
+  if (setting == "damage") {  // elements on the notch alone
+    const CohesiveMaterial& c = scene.cohesive;
+    scene.damage.law = find_softening("linear");
+    scene.damage.materials = {DamageMaterial{c.tensile_strength, c.cohesion, c.tan_friction, c.tan_residual,
+                                             c.fracture_energy_mode1, c.fracture_energy_mode2}};
+  }
   scene.contact = {scene.cohesive.penalty, scene.cohesive.penalty, scene.cohesive.tan_residual};
   scene.stress.yy = std::sqrt(2.0 * plane_strain_modulus(scene.stiffness) * 1.2 * energy / height);
   const std::vector<Index> notch = edges_on_axis(*scene.mesh, -0.5 * width, 0.3 * width);
@@ -93,6 +99,11 @@ Row strip(const std::string& setting, double x) {
   }
   const Dissipation& d = state.dissipation;
   row.broken = guards.memory().broken;
+  for (const DamagedTriangle& t : state.damage.triangles) {
+    if (t.failed == 0) continue;
+    ++row.broken;
+    area += simulation.bulk().area(t.triangle) / t.length;
+  }
   row.stray = guards.memory().stray;
   row.joint_work = (last.cohesive + d.fracture + d.friction - d.made) / (energy * area);
   row.dissipated = d.fracture / (energy * area);
