@@ -89,10 +89,17 @@ void add_joints(const Case& scene, MeshRecipe& recipe) {
     recipe.joints.insert(recipe.joints.end(), joints.begin(), joints.end());
   }
   if (has_notch(scene)) {
-    const double half = scene.fracture.notch;
-    recipe.joints.push_back({{-half, 0.0}, {half, 0.0}, static_cast<Index>(recipe.joint_sets.size())});
+    const double half = scene.fracture.notch, offset = scene.fracture.offset;
+    const Vec2 along = notch_direction(scene);
+    recipe.joints.push_back(
+        {(offset - half) * along, (offset + half) * along, static_cast<Index>(recipe.joint_sets.size())});
     recipe.joint_sets.emplace_back("notch");
   }
+}
+
+Vec2 notch_direction(const Case& scene) {
+  const double angle = scene.fracture.angle;
+  return angle == 0.0 ? Vec2{1.0, 0.0} : Vec2{std::cos(angle), std::sin(angle)};
 }
 
 void set_joints(const Case& scene, Scene& solver_scene) {
