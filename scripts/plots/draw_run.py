@@ -17,7 +17,7 @@ import pressure_figure
 
 FIGURES = {"pressure.png": pressure_figure.draw, "fractures.png": fractures_figure.draw,
            "events.png": events_figure.draw}
-IN_FIELD_TIME = {"pressure.png": field_time_figure.draw_history, "fractures.png": field_time_figure.draw_profiles}
+IN_FIELD_TIME = {"pressure.png": field_time_figure.draw_history, "fractures.png": field_time_figure.draw_fracture}
 
 
 def main():

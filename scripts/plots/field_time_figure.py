@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of a run in field time: pressure.png (pressure, rate, volumes, length) and fractures.png
-(opening and pressure along the fracture, frame by frame)."""
+(opening and pressure along a straight fracture, frame by frame; on a map at the end of any other)."""
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import LineCollection
 
 import look
 from run_data import Frame
@@ -57,11 +58,40 @@ def draw_history(run, path):
     look.save(figure, path)
 
 
-def draw_profiles(run, figure_path):
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(8.2, 6.0), sharex=True)
-    look.set_titles(figure, run, "Opening and pressure along the fracture")
+def draw_fracture(run, figure_path):
+    """Profiles of a fracture along x; of any other its map at the end."""
     frames = [(time, Frame(path)) for time, path in run.frames("fractures")]
     frames = [(time, frame) for time, frame in frames if "opening_m" in frame.cell_fields]
+    if frames and np.ptp(frames[-1][1].points[:, 1]) > 0.0:
+        draw_map(run, *frames[-1], figure_path)
+    else:
+        draw_profiles(run, frames, figure_path)
+
+
+def draw_map(run, time, frame, figure_path):
+    figure, panels = plt.subplots(1, 2, figsize=(9.6, 5.0), sharex=True, sharey=True)
+    unit, seconds = unit_of(run.history["time_s"][-1])
+    look.set_titles(figure, run, f"Fracture and joints at {time / seconds:.3g} {unit}")
+    lines = frame.points[frame.cells][:, :, :2]
+    for axes, name, scale, label in zip(panels, ("opening_m", "pressure_Pa"), (1e3, 1e-6),
+                                        ("opening [mm]", "pressure [MPa]")):
+        values = LineCollection(lines, array=frame.cell_fields[name] * scale, cmap="viridis", linewidths=2.5)
+        axes.add_collection(values)
+        figure.colorbar(values, ax=axes, label=label, orientation="horizontal", pad=0.12)
+        axes.plot(0.0, 0.0, marker="o", markersize=4, color=look.ACCENT)
+        axes.set_aspect("equal")
+        axes.set_xlabel("x [m]")
+    margin = 0.08 * np.ptp(lines[:, :, 0])
+    panels[0].set_xlim(lines[:, :, 0].min() - margin, lines[:, :, 0].max() + margin)
+    panels[0].set_ylim(lines[:, :, 1].min() - margin, lines[:, :, 1].max() + margin)
+    panels[0].set_ylabel("y [m]")
+    figure.tight_layout(rect=(0, 0, 1, look.below_titles(figure)))
+    look.save(figure, figure_path)
+
+
+def draw_profiles(run, frames, figure_path):
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(8.2, 6.0), sharex=True)
+    look.set_titles(figure, run, "Opening and pressure along the fracture")
     unit, seconds = unit_of(run.history["time_s"][-1])
     for number, (time, frame) in enumerate(frames):
         x = frame.points[frame.cells].mean(axis=1)[:, 0]

@@ -80,10 +80,11 @@ void print_cost(const Case& scene, const Mesh& mesh, const Steps& steps, const W
 }
 
 void check_quasi_static(const Case& scene) {
-  const auto mesh = std::make_shared<const Mesh>(make_quasi_static_mesh(scene));
+  NetworkReport network;
+  const auto mesh = std::make_shared<const Mesh>(make_quasi_static_mesh(scene, &network));
   const QuasiStaticScene stage = make_quasi_static_scene(scene, mesh);
-  fmt::print("\nMesh: {} triangles, half of the domain; a path of {} edges\n", mesh->triangle_count(),
-             stage.wings.front().path.size());
+  fmt::print("\nMesh: {}\n", quasi_static_mesh_text(scene, stage));
+  if (const std::string joints = network_text(network); !joints.empty()) fmt::print("{}\n", joints);
   fmt::print("\nNumbers and warnings\n");
   for (const std::string& line : quasi_static_notes(scene, stage)) fmt::print("  {}\n", line);
 }

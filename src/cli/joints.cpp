@@ -55,8 +55,12 @@ JointSet random_set(const Case::JointSet& set, double wellbore_radius) {
 std::vector<Case::Notch> notches_of(const Case& scene) {
   std::vector<Case::Notch> notches;
   if (!scene.mesh.file.empty()) return notches;
-  if (scene.fracture.notch > 0.0)
-    notches.push_back({-scene.fracture.notch, 0.0, scene.fracture.notch, 0.0, "pumped"});
+  if (scene.fracture.notch > 0.0) {
+    const Vec2 along = notch_direction(scene);
+    const Vec2 from = (scene.fracture.offset - scene.fracture.notch) * along;
+    const Vec2 to = (scene.fracture.offset + scene.fracture.notch) * along;
+    notches.push_back({from.x, from.y, to.x, to.y, "pumped"});
+  }
   notches.insert(notches.end(), scene.notches.begin(), scene.notches.end());
   return notches;
 }
@@ -102,6 +106,11 @@ void add_joints(const Case& scene, MeshRecipe& recipe) {
     recipe.joints.push_back({{notch.x1, notch.y1}, {notch.x2, notch.y2}, set});
     recipe.joint_sets.push_back(fmt::format("notch{}", ++number));
   }
+}
+
+Vec2 notch_direction(const Case& scene) {
+  const double angle = scene.fracture.angle;
+  return angle == 0.0 ? Vec2{1.0, 0.0} : Vec2{std::cos(angle), std::sin(angle)};
 }
 
 void set_joints(const Case& scene, Scene& solver_scene) {

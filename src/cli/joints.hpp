@@ -14,6 +14,9 @@ namespace crackle {
 /// [[joint_sets]]. @throws CaseError on a bad CSV file, MeshError on a set that cannot be drawn
 void add_joints(const Case& scene, MeshRecipe& recipe);
 
+/// Unit vector along fracture.notch.
+Vec2 notch_direction(const Case& scene);
+
 /// The joints of an excavated mesh with the properties that the case gives their sets. @throws CaseError on a
 /// set of a mesh file that the case does not know
 void set_joints(const Case& scene, Scene& solver_scene);

@@ -9,10 +9,13 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/mesh/grid.hpp"
 #include "crackle/solve/estimates.hpp"
+#include "joints.hpp"
 #include "scene.hpp"
 
 namespace crackle {
 namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::vector<double> mirrored(const std::vector<double>& upper) {
   std::vector<double> line;
@@ -21,8 +24,92 @@ std::vector<double> mirrored(const std::vector<double>& upper) {
   return line;
 }
 
-void require(bool holds, const Case& scene, const char* what) {
+void require(bool holds, const Case& scene, const std::string& what) {
   if (!holds) throw CaseError(scene.file, 0, 0, fmt::format("run.regime = \"quasi_static\": {}", what));
+}
+
+// What hinders a straight path along x, mirrored at both axes; empty: nothing.
+std::string asymmetry(const Case& scene) {
+  if (scene.fracture.angle != 0.0) return "fracture.angle is not 0";
+  if (scene.fracture.offset != 0.0) return "fracture.offset is not 0";
+  if (!scene.joints.empty() || !scene.joint_sets.empty()) return "there are joints";
+  if (scene.stress.xy != 0.0) return "stress.xy is not 0";
+  return {};
+}
+
+// One wing along x, on the half x > 0: symmetric at x = 0, free on the other sides, and held in y where the
+// path's line leaves the domain.
+void set_straight_path(const Case& scene, QuasiStaticScene& s) {
+  s.held.assign(s.mesh->vertices.size(), 0);
+  std::size_t far = 0, start = 0;
+  for (std::size_t v = 0; v < s.held.size(); ++v) {
+    const Vec2 place = s.mesh->vertices[v];
+    if (place.x == 0.0) s.held[v] = 1;
+    if (place.y != 0.0) continue;
+    if (place.x > s.mesh->vertices[far].x) far = v;
+    if (place.x == 0.0) start = v;
+  }
+  s.held[far] |= 2;
+  const double step = scene.mesh.size_fine;
+  Wing wing;
+  wing.start = static_cast<Index>(start);
+  wing.path = edges_along(*s.mesh, {0.0, 0.0}, {step * std::round(scene.mesh.fine_radius / step), 0.0});
+  wing.open = static_cast<std::size_t>(std::max(1.0, std::round(scene.fracture.notch / step)));
+  s.wings.push_back(std::move(wing));
+}
+
+// The edges of a notch, in order along it; two wings leave the vertex nearest to the origin.
+void set_wings(const Case& scene, std::vector<Index> notch, QuasiStaticScene& s) {
+  const Mesh& mesh = *s.mesh;
+  const Vec2 along = notch_direction(scene);
+  const auto where = [&](Index v) { return dot(mesh.vertices[at(v)], along); };
+  const auto middle = [&](Index e) {
+    return 0.5 * (where(mesh.edges[at(e)].vertex[0]) + where(mesh.edges[at(e)].vertex[1]));
+  };
+  std::ranges::sort(notch, {}, middle);
+  Index well = mesh.edges[at(notch.front())].vertex[0];
+  for (const Index e : notch) {
+    for (const Index v : mesh.edges[at(e)].vertex) {
+      if (std::abs(where(v)) < std::abs(where(well))) well = v;
+    }
+  }
+  for (const double side : {1.0, -1.0}) {
+    Wing wing;
+    wing.start = well;
+    wing.free = true;
+    for (const Index e : notch) {
+      if (side * (middle(e) - where(well)) > 0.0) wing.path.push_back(e);
+    }
+    require(!wing.path.empty(), scene,
+            "the well is in the origin: fracture.offset has to leave it between the ends of the notch");
+    if (side < 0.0) std::ranges::reverse(wing.path);
+    wing.open = wing.path.size();
+    Index from = wing.start;
+    for (const Index e : wing.path) {
+      const auto& v = mesh.edges[at(e)].vertex;
+      require(v[0] == from || v[1] == from, scene,
+              "fracture.notch is no one line of edges: does it run along a joint?");
+      from = v[0] == from ? v[1] : v[0];
+    }
+    s.wings.push_back(std::move(wing));
+  }
+}
+
+// On the whole domain, held at its rim: wings that choose their way, and joints.
+void set_free_path(const Case& scene, QuasiStaticScene& s) {
+  const Scene rock = make_scene(scene, s.mesh);
+  require(!rock.cracks.empty(), scene, "fracture.notch is shorter than an edge of the mesh");
+  s.slip = true;
+  s.shear.friction = rock.cohesive.tan_residual;
+  s.held.assign(s.mesh->vertices.size(), 0);
+  for (const Edge& e : s.mesh->edges) {
+    if (e.kind == EdgeKind::outer) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
+  }
+  for (const JointEdge& joint : rock.joints) {
+    require(!joint.bonded, scene, "bonded joints are not yet taken");
+    s.joints.push_back({joint.edge, rock.joint_materials[joint.material - 1U].tan_residual});
+  }
+  set_wings(scene, rock.cracks, s);
 }
 
 }  // namespace
@@ -50,7 +137,6 @@ RegimeChoice choose_regime(const Case& scene) {
     require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&
                 !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
             scene, "strengths along the bedding are not yet taken");
-    require(scene.joints.empty() && scene.joint_sets.empty(), scene, "joints are not yet taken");
     require(scene.notches.empty(), scene, "[[notches]] are not yet taken, give fracture.notch");
     require(scene.loads.empty(), scene, "[[loads]] are not yet taken");
     require(scene.cohesive.insertion != "none", scene,
@@ -58,14 +144,28 @@ RegimeChoice choose_regime(const Case& scene) {
     require(scene.fluid.viscosity > 0.0, scene, "give fluid.viscosity");
     require(!scene.fluid.pump.empty(), scene, "give a [[fluid.pump]]");
     require(scene.stress_gradient == Sym2{}, scene, "stress gradients are not yet taken");
-    require(scene.stress.xy == 0.0, scene, "its fracture lies along x: stress.xy has to be 0");
-    require(scene.mesh.fine_radius > scene.fracture.notch + scene.mesh.size_fine, scene,
-            "mesh.fine_radius is where the path of the fracture ends: it has to be above fracture.notch");
+    if (is_straight(scene)) {
+      require(asymmetry(scene).empty(), scene, "fracture.path = \"straight\" cannot be: " + asymmetry(scene));
+      require(scene.mesh.fine_radius > scene.fracture.notch + scene.mesh.size_fine, scene,
+              "mesh.fine_radius is where the path of the fracture ends: it has to be above fracture.notch");
+    } else {
+      require(scene.wellbore.diameter == 0.0, scene,
+              "a free path starts from a notch alone: wellbore.diameter has to be 0");
+      require(std::abs(scene.fracture.offset) <= scene.fracture.notch, scene,
+              "the well is in the origin: fracture.offset has to leave it on the notch");
+    }
   }
   return choice;
 }
 
-Mesh make_quasi_static_mesh(const Case& scene) {
+bool is_straight(const Case& scene) {
+  return scene.fracture.path == "straight" || (scene.fracture.path == "auto" && asymmetry(scene).empty());
+}
+
+double modelled_halves(const Case& scene) { return is_straight(scene) ? 1.0 : 2.0; }
+
+Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network) {
+  if (!is_straight(scene)) return excavate(make_mesh(scene, network));
   const Case::Mesh& m = scene.mesh;
   const double path = m.size_fine * std::round(m.fine_radius / m.size_fine);
   const std::vector<double> x =
@@ -97,8 +197,8 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
     rock.cells = diffusion_cells(rock, scene.run.end_time);
     s.leak_off = rock;
   }
-  // Of one wing, per metre of height.
-  const double wings = 2.0 * scene.well.height;
+  // Of what is modelled, per metre of height.
+  const double wings = 2.0 / modelled_halves(scene) * scene.well.height;
   s.well.storage = scene.well.storage / wings;
   s.well.impedance = scene.well.impedance * wings;
   s.well.impedance_time = scene.well.impedance_time;
@@ -110,25 +210,24 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
     stages.push_back({stage.from, stage.to, stage.rate / wings});
   s.pump = Pump(std::move(stages));
 
-  // Symmetric at x = 0, free on the other sides, and held in y where the path's line leaves the domain.
-  s.held.assign(mesh->vertices.size(), 0);
-  std::size_t far = 0, start = 0;
-  for (std::size_t v = 0; v < s.held.size(); ++v) {
-    const Vec2 at = mesh->vertices[v];
-    if (at.x == 0.0) s.held[v] = 1;
-    if (at.y != 0.0) continue;
-    if (at.x > mesh->vertices[far].x) far = v;
-    if (at.x == 0.0) start = v;
-  }
-  s.held[far] |= 2;
-  const double step = scene.mesh.size_fine;
-  Wing wing;
-  wing.start = static_cast<Index>(start);
-  wing.path = edges_along(*mesh, {0.0, 0.0}, {step * std::round(scene.mesh.fine_radius / step), 0.0});
-  wing.open = static_cast<std::size_t>(std::max(1.0, std::round(scene.fracture.notch / step)));
-  s.wings.push_back(std::move(wing));
   s.mesh = std::move(mesh);
+  if (is_straight(scene)) {
+    set_straight_path(scene, s);
+  } else {
+    set_free_path(scene, s);
+  }
   return s;
+}
+
+std::string quasi_static_mesh_text(const Case& scene, const QuasiStaticScene& stage) {
+  std::string text =
+      fmt::format("{} triangles, {} vertices", stage.mesh->triangle_count(), stage.mesh->vertex_count());
+  if (is_straight(scene))
+    return text + fmt::format(", half of the domain; a path of {} edges", stage.wings.front().path.size());
+  text += fmt::format("; a notch of {} wings, free beyond", stage.wings.size());
+  for (const Wing& wing : stage.wings) text += fmt::format("; {} edges", wing.path.size());
+  if (!stage.joints.empty()) text += fmt::format("; {} edges of joints", stage.joints.size());
+  return text;
 }
 
 std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStaticScene& stage) {

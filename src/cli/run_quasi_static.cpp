@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "checkpoint.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
+#include "joints.hpp"
 #include "progress.hpp"
 #include "quasi_static_scene.hpp"
 #include "signals.hpp"
@@ -27,8 +29,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Largest principal stress, tension positive [Pa]: the least compression.
+double largest(const Sym2& s) { return 0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy); }
+
 FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, const Case& scene) {
-  constexpr double wings = 2.0;
+  const double halves = modelled_halves(scene), wings = 2.0 / halves;
   FieldTimeRow h;
   h.time = row.time;
   h.time_step = row.step;
@@ -42,13 +47,14 @@ FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, co
   h.fracture_volume = row.fracture_volume * wings;
   h.leaked = row.leaked * wings;
   h.mass_defect = row.mass_defect * wings;
-  h.broken_length = row.broken_length;
-  h.damaged_length = row.damaged_length;
-  h.half_length = 0.5 * (row.broken_length + row.damaged_length);
+  h.broken_length = row.broken_length / halves;
+  h.damaged_length = row.damaged_length / halves;
+  h.half_length = 0.5 * (h.broken_length + h.damaged_length);
   h.opening = row.opening;
   h.mean_opening = row.mean_opening;
   h.contact_fraction = row.contact_fraction;
-  h.closure_stress = scene.rock.pore_pressure - scene.stress.yy;
+  h.closure_stress =
+      scene.rock.pore_pressure - (is_straight(scene) ? scene.stress.yy : largest(scene.stress));
   const quasi_static::Energies& e = row.energies;
   h.work_pump = wings * e.pumped;
   h.energy_well = wings * e.well;
@@ -106,9 +112,9 @@ FractureFrame fracture_frame(const QuasiStatic& stage) {
     frame.lines.push_back({p, p + 1});
     const bool is_broken = std::min(cell.damage[0], cell.damage[1]) >= 1.0;
     opening.add(0.5 * (cell.opening[0] + cell.opening[1]));
-    slip.add(0.0);
+    slip.add(0.5 * (cell.slip[0] + cell.slip[1]));
     damage.add(0.5 * (cell.damage[0] + cell.damage[1]));
-    mode.add(is_broken ? static_cast<double>(FailureMode::tensile) : 0.0);
+    mode.add(is_broken && !cell.joint ? static_cast<double>(FailureMode::tensile) : 0.0);
     pressure.add(cell.pressure);
     broken.add(is_broken ? 1.0 : 0.0);
     leaked.add(0.5 * cell.leaked / cell.length);
@@ -116,6 +122,23 @@ FractureFrame fracture_frame(const QuasiStatic& stage) {
   frame.cell_fields = {std::move(opening),  std::move(slip),   std::move(damage), std::move(mode),
                        std::move(pressure), std::move(broken), std::move(leaked)};
   return frame;
+}
+
+// Width and height of the box round what is broken [m], joints left out.
+Vec2 broken_extent(const QuasiStatic& stage) {
+  const Mesh& mesh = *stage.scene().mesh;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Vec2 low{far, far}, high{-far, -far};
+  const std::vector<FractureCell> cells = stage.cells();
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (cells[c].joint || cells[c].damage[i] < 1.0) continue;
+      const Vec2 p = mesh.vertices[at(stage.path().edges()[c].vertex[i])];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  return high.x < low.x ? Vec2{} : high - low;
 }
 
 // One process of a run in field time: from the beginning or a checkpoint to the end or an interruption.
@@ -176,11 +199,12 @@ class FieldTimeRun {
   }
 
   void begin() {
-    const QuasiStaticScene stage =
-        make_quasi_static_scene(scene_, std::make_shared<const Mesh>(make_quasi_static_mesh(scene_)));
+    NetworkReport network;
+    const QuasiStaticScene stage = make_quasi_static_scene(
+        scene_, std::make_shared<const Mesh>(make_quasi_static_mesh(scene_, &network)));
     triangles_ = stage.mesh->triangle_count();
-    say(fmt::format("mesh: {} triangles, {} vertices, half of the domain", triangles_,
-                    stage.mesh->vertex_count()));
+    say("mesh: " + quasi_static_mesh_text(scene_, stage));
+    if (network.joints > 0) say(network_text(network));
     for (const std::string& line : quasi_static_notes(scene_, stage)) say(line);
     quasi_static::State state;
     const bool resumed = !options_.resume.empty() &&
@@ -241,7 +265,10 @@ class FieldTimeRun {
     RunSummary summary = tally_.finish();
     summary.triangles = triangles_;
     summary.steps = tally_.memory().steps;
-    summary.broken_length = summary.extent_x = 2.0 * row_.broken_length;
+    summary.broken_length = 2.0 / modelled_halves(scene_) * row_.broken_length;
+    const Vec2 extent = broken_extent(*stage_);
+    summary.extent_x = 2.0 / modelled_halves(scene_) * extent.x;
+    summary.extent_y = extent.y;
     summary.mass_residual_max = memory_.mass_residual_max;
     summary.wall = memory_now().wall;
     summary.core_ns_per_triangle_step =

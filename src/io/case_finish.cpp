@@ -78,10 +78,13 @@ void check_notch(const Case& scene, const GivenKeys& given) {
     fail(given.latest({"fracture.notch", "mesh.file"}),
          "fracture.notch cannot be cut into mesh.file: give a mesh.generator");
   }
-  if (notch >= 0.5 * scene.domain.width) {
-    fail(given.latest({"fracture.notch", "domain.width"}),
-         fmt::format("fracture.notch = {} m ends outside the domain, which is {} m wide", notch,
-                     scene.domain.width));
+  const double reach = notch + std::abs(scene.fracture.offset);
+  const double x = std::abs(std::cos(scene.fracture.angle)) * reach;
+  const double y = std::abs(std::sin(scene.fracture.angle)) * reach;
+  if (x >= 0.5 * scene.domain.width || y >= 0.5 * scene.domain.height) {
+    fail(given.latest({"fracture.notch", "fracture.offset", "domain.width", "domain.height"}),
+         fmt::format("fracture.notch = {} m ends outside the domain of {} m x {} m", notch,
+                     scene.domain.width, scene.domain.height));
   }
 }
 

@@ -186,10 +186,13 @@ struct Case {
     std::optional<double> breakdown_pressure;  ///< the fracture is shut off below it [Pa]
   } well;
 
-  /// The fracture that a run starts from, straight along x, its middle in the origin, and how the fracture
-  /// of a quasi-static run closes.
+  /// The fracture that a run starts from, a straight line through the origin, and how the fracture of a
+  /// quasi-static run goes and closes.
   struct Fracture {
     double notch = 0.0;               ///< broken half-length at first, with fluid in it [m]; 0: none
+    double angle = 0.0;               ///< from x to the notch, anticlockwise [rad]
+    double offset = 0.0;              ///< of its middle from the origin (the well), along it [m]
+    std::string path = "auto";        ///< of a quasi-static run: "straight", "free", or "auto"
     double residual_aperture = 1e-4;  ///< of mated faces without effective stress [m]
     double closure_stress = 30e6;     ///< that leaves a tenth of it [Pa]
   } fracture;

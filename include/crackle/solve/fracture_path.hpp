@@ -38,8 +38,8 @@ struct PathEdge {
   Index edge = -1;                      ///< of the mesh
   Index parent = -1;                    ///< path edge it was reached from; -1: from the well, -2: of a joint
   std::array<Index, 2> vertex{-1, -1};  ///< inner, outer
-  Vec2 normal;                          ///< from face a to face b
-  double length = 0.0;                  ///< [m]
+  Vec2 normal;                          ///< of the fracture, from face a to face b
+  double length = 0.0;                  ///< of the fracture [m]
   double aperture = 0.0;                ///< between mated faces at no jump [m]
   std::array<std::vector<JumpTerm>, 2> jump;  ///< at the inner and the outer vertex
 };
@@ -52,8 +52,9 @@ class FracturePath {
   /// @param slip false: faces only open (a straight path along a principal stress); one unknown a vertex
   FracturePath(std::shared_ptr<const Mesh> mesh, Held held, bool slip);
 
-  /// Appends a mesh edge that leaves `inner`. @return its number on the path
-  Index add(Index edge, Index inner, Index parent, double aperture = 0.0);
+  /// Appends a mesh edge that leaves `inner`. @param along piece of a smooth fracture that it stands for,
+  /// from its inner end to its outer one [m]; zero: the edge itself @return its number on the path
+  Index add(Index edge, Index inner, Index parent, double aperture = 0.0, Vec2 along = {});
   /// Takes back the last edges, so that `count` are left.
   void truncate(std::size_t count);
 

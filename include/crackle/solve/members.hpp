@@ -90,6 +90,7 @@ void members(Cell& c, V&& v) {
   v("edge", c.edge);
   v("inner", c.inner);
   v("parent", c.parent);
+  v("along", c.along);
   v("points", c.points);
   v("wet", c.wet);
   v("pressure", c.pressure);
@@ -108,6 +109,7 @@ template <class V>
 void members(Tip& t, V&& v) {
   v("wing", t.wing);
   v("cell", t.cell);
+  v("place", t.place);
 }
 
 template <class V>

@@ -48,6 +48,12 @@ struct Wing {
   bool free = false;
 };
 
+/// An edge of a joint without cohesion.
+struct PathJoint {
+  Index edge = -1;        ///< of the mesh
+  double friction = 0.6;  ///< coefficient [-]
+};
+
 struct TimeControl {
   double relative = 0.02;   ///< largest step over the time since the last change of the schedule [-]
   double growth = 1.25;     ///< of a step over the one before [-]
@@ -73,10 +79,9 @@ struct QuasiStaticScene {
   Pump pump;
   Wetting wetting = Wetting::tip_pressure;
   std::vector<Wing> wings;
-  bool slip = false;            ///< faces may slip: for any path that is no straight line of symmetry
-  ShearLaw shear;               ///< of rock and its fractures
-  std::vector<Index> joints;    ///< mesh edges of joints: mated, full of fluid at pore pressure
-  double joint_friction = 0.6;  ///< [-]
+  bool slip = false;              ///< faces may slip: for any path that is no straight line of symmetry
+  ShearLaw shear;                 ///< of rock and its fractures
+  std::vector<PathJoint> joints;  ///< mated, full of fluid at pore pressure
   TimeControl control;
 };
 
@@ -103,7 +108,9 @@ struct QuasiStaticRow {
 struct FractureCell {
   Index edge = -1;                ///< of the mesh
   double length = 0.0;            ///< [m]
+  bool joint = false;             ///< there before the fracture
   std::array<double, 2> opening;  ///< at its inner and outer vertex [m]
+  std::array<double, 2> slip;     ///< [m]
   std::array<double, 2> damage;   ///< [-]
   bool wet = false;
   double pressure = 0.0;  ///< [Pa]

@@ -26,6 +26,7 @@ struct Cell {
   Index edge = -1;    ///< of the mesh
   Index inner = -1;   ///< vertex that it was reached at
   Index parent = -1;  ///< cell that it was reached from; -1: the well, -2: of a joint
+  Vec2 along;         ///< piece of a smooth fracture that it stands for [m]; zero: the edge itself
   std::array<Point, 2> points;
   std::uint8_t wet = 0;
   double pressure = 0.0;  ///< [Pa]
@@ -43,6 +44,7 @@ struct Inlet {
 struct Tip {
   Index wing = -1;
   Index cell = -1;  ///< the last one
+  Vec2 place;       ///< outer end of the smooth fracture [m]
 };
 
 /// Energies since the start [J/m], fluid's relative to pore pressure (ledger.hpp in src).

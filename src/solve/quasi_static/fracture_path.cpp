@@ -112,7 +112,7 @@ void FracturePath::renew_jumps(Index vertex) {
   }
 }
 
-Index FracturePath::add(Index edge, Index inner, Index parent, double aperture) {
+Index FracturePath::add(Index edge, Index inner, Index parent, double aperture, Vec2 along) {
   const Edge& e = mesh_->edges[at(edge)];
   PathEdge path;
   path.edge = edge;
@@ -120,8 +120,9 @@ Index FracturePath::add(Index edge, Index inner, Index parent, double aperture) 
   path.aperture = aperture;
   path.vertex = {inner, e.vertex[0] == inner ? e.vertex[1] : e.vertex[0]};
   const Vec2 n = right_normal(mesh_->vertices[at(e.vertex[1])] - mesh_->vertices[at(e.vertex[0])]);
-  path.length = norm(n);
-  path.normal = (1.0 / path.length) * n;
+  const Vec2 across = norm(along) > 0.0 ? right_normal(along) : n;
+  path.length = norm(across);
+  path.normal = ((dot(across, n) < 0.0 ? -1.0 : 1.0) / path.length) * across;
   unknowns_before_.push_back(unknowns_.size());
   on_path_[at(edge)] = 1;
   edges_.push_back(path);

@@ -17,6 +17,7 @@ namespace crackle::quasi_static {
 /// All that the equations need beside the state.
 struct Equations {
   const QuasiStaticScene& scene;
+  const Bulk& bulk;
   const FracturePath& path;
   const Condensation& rock;
   const std::vector<InterfaceLaw>& laws;  // one per path edge

@@ -10,8 +10,10 @@
 
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/estimates.hpp"
+#include "growth.hpp"
 #include "ledger.hpp"
 #include "newton.hpp"
+#include "record.hpp"
 
 namespace crackle {
 
@@ -20,8 +22,6 @@ namespace qs = quasi_static;
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-constexpr Index of_joint = -2;  // parent of a cell
 
 void check(const QuasiStaticScene& scene) {
   const auto require = [](bool holds, const char* what) {
@@ -53,14 +53,14 @@ class QuasiStatic::Solver {
         bulk_(*scene_.mesh, scene_.stiffness, 1.0, scene_.stress, {}),
         path_(scene_.mesh, scene_.held, scene_.slip),
         rock_(scene_.mesh, bulk_, scene_.held),
-        equations_{scene_, path_, rock_, laws_, matrix_} {
+        equations_{scene_, bulk_, path_, rock_, laws_, matrix_} {
     if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
   }
 
   void begin() {
     state_.well_pressure = scene_.pore_pressure;
     state_.connected = !scene_.well.breakdown_pressure.has_value();
-    for (const Index edge : scene_.joints) add_joint(edge);
+    for (const PathJoint& joint : scene_.joints) add_joint(joint.edge);
     for (std::size_t w = 0; w < scene_.wings.size(); ++w) start(static_cast<Index>(w));
     settle();
     state_.step = scene_.control.first;
@@ -68,7 +68,7 @@ class QuasiStatic::Solver {
   }
 
   void go_on(qs::State state) {
-    for (const qs::Cell& cell : state.cells) join(cell.edge, cell.inner, cell.parent);
+    for (const qs::Cell& cell : state.cells) join(cell);
     rock_.follow(path_.unknowns());
     state_ = std::move(state);
   }
@@ -94,81 +94,33 @@ class QuasiStatic::Solver {
     }
   }
 
-  std::vector<FractureCell> cells() const {
-    std::vector<FractureCell> list;
-    for (std::size_t c = 0; c < state_.cells.size(); ++c) {
-      const qs::Cell& cell = state_.cells[c];
-      const PathEdge& edge = path_.edges()[c];
-      const Index source = qs::pressure_source(equations_, state_, static_cast<Index>(c));
-      FractureCell f;
-      f.edge = edge.edge;
-      f.length = edge.length;
-      f.opening = qs::openings(edge, state_.jumps);
-      for (std::size_t i = 0; i < 2; ++i) f.damage[i] = laws_[c].damage(cell.points[i].max_opening);
-      f.wet = cell.wet;
-      f.pressure = source < 0 ? scene_.pore_pressure : state_.cells[at(source)].pressure;
-      f.leaked = cell.leaked;
-      list.push_back(f);
-    }
-    return list;
-  }
-
   const QuasiStaticScene& scene() const { return scene_; }
   const FracturePath& path() const { return path_; }
   const qs::State& state() const { return state_; }
-  QuasiStaticRow row() const {
-    QuasiStaticRow row;
-    describe(row);
-    return row;
-  }
+  const qs::Equations& equations() const { return equations_; }
   double strength() const {
     double least = scene_.tensile_strength;
     for (const InterfaceLaw& law : laws_) least = std::min(least, law.strength());
     return least;
   }
-  std::vector<Vec2> corner_displacement() const {
-    const std::vector<Vec2> u = rock_.displacement(state_.jumps);
-    std::vector<Vec2> corners;
-    for (const auto& triangle : scene_.mesh->triangles) {
-      for (const Index v : triangle) corners.push_back(u[at(v)]);
-    }
-    for (std::size_t k = 0; k < state_.jumps.size(); ++k) {
-      const JumpUnknown& unknown = path_.unknowns()[k];
-      for (const Index t : unknown.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-          if (scene_.mesh->triangles[at(t)][i] == unknown.vertex)
-            corners[3 * at(t) + i] += state_.jumps[k] * unknown.direction;
-        }
-      }
-    }
-    return corners;
-  }
-  std::vector<Sym2> stress(const std::vector<Vec2>& corners) const {
-    std::vector<Sym2> stress;
-    for (Index t = 0; t < scene_.mesh->triangle_count(); ++t) {
-      const auto g = bulk_.shape_gradients(t);
-      Sym2 strain;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec2 u = corners[3 * at(t) + i];
-        strain = strain + Sym2{u.x * g[i].x, u.y * g[i].y, 0.5 * (u.x * g[i].y + u.y * g[i].x)};
-      }
-      stress.push_back(scene_.stress + scene_.stiffness.stress(strain));
-    }
-    return stress;
-  }
 
  private:
   // Makes a mesh edge part of the path.
-  Index join(Index mesh_edge, Index inner, Index parent) {
-    const bool joint = parent == of_joint;
-    const Index c = path_.add(mesh_edge, inner, parent, joint ? mated_aperture(mesh_edge) : 0.0);
+  Index join(const qs::Cell& cell) {
+    const bool joint = cell.parent == qs::of_joint;
+    const Index c =
+        path_.add(cell.edge, cell.inner, cell.parent, joint ? mated_aperture(cell.edge) : 0.0, cell.along);
     laws_.emplace_back(
         scene_.law,
         resolved_strength(scene_.tensile_strength, plane_strain_modulus(scene_.stiffness),
                           scene_.fracture_energy, path_.edges()[at(c)].length, scene_.edges_per_zone),
         scene_.fracture_energy, scene_.closure,
-        ShearLaw{scene_.shear.ratio, joint ? scene_.joint_friction : scene_.shear.friction});
+        ShearLaw{scene_.shear.ratio, joint ? friction_of(cell.edge) : scene_.shear.friction});
     return c;
+  }
+
+  double friction_of(Index joint_edge) const {
+    return std::ranges::find(scene_.joints, joint_edge, &PathJoint::edge)->friction;
   }
 
   // In-situ tractions across an edge and along it [Pa].
@@ -191,10 +143,10 @@ class QuasiStatic::Solver {
     qs::Cell cell;
     cell.edge = mesh_edge;
     cell.inner = scene_.mesh->edges[at(mesh_edge)].vertex[0];
-    cell.parent = of_joint;
+    cell.parent = qs::of_joint;
     cell.wet = 1;
     cell.pressure = scene_.pore_pressure;
-    const Index c = join(mesh_edge, cell.inner, of_joint);
+    const Index c = join(cell);
     set_in_situ(cell, path_.edges()[at(c)]);
     for (qs::Point& p : cell.points)
       p.max_opening = std::max(laws_[at(c)].broken_opening(), scene_.closure.residual_aperture);
@@ -210,86 +162,35 @@ class QuasiStatic::Solver {
     state.jumps.resize(path_.unknowns().size(), 0.0);
   }
 
-  // Adds the next edge of a wing behind `parent`, intact and dry.
-  Index extend(qs::State& state, Index wing, Index parent, std::size_t number) {
-    const Wing& w = scene_.wings[at(wing)];
+  // Adds the next edge of a wing behind the last one of `tip`, intact and dry.
+  void extend(qs::State& state, qs::Tip& tip, std::size_t number) {
+    const Wing& w = scene_.wings[at(tip.wing)];
     qs::Cell cell;
-    cell.inner = parent < 0 ? w.start : path_.edges()[at(parent)].vertex[1];
-    cell.edge = number < w.path.size() ? w.path[number] : choose_edge(state, parent);
-    cell.parent = parent;
-    const Index c = join(cell.edge, cell.inner, parent);
-    const PathEdge& edge = path_.edges()[at(c)];
+    cell.inner = tip.cell < 0 ? w.start : path_.edges()[at(tip.cell)].vertex[1];
+    cell.parent = tip.cell;
+    if (number < w.path.size()) {
+      cell.edge = w.path[number];
+    } else {
+      rock_.follow(path_.unknowns());
+      const qs::NextEdge next = qs::choose_edge(equations_, state, tip);
+      cell.edge = next.edge;
+      cell.along = next.along;
+    }
+    tip.cell = join(cell);
+    const PathEdge& edge = path_.edges()[at(tip.cell)];
+    tip.place = norm(cell.along) > 0.0 ? tip.place + cell.along : scene_.mesh->vertices[at(edge.vertex[1])];
     set_in_situ(cell, edge);
     cell.pressure = scene_.pore_pressure;
     append(state, cell);
-    return c;
-  }
-
-  // The edge that a free wing takes next at the outer vertex of its last cell: of those that turn by less
-  // than 100 degrees, the one along which it would open against the largest pull, by the mean stress round
-  // the vertex.
-  Index choose_edge(const qs::State& state, Index cell) {
-    const PathEdge& from = path_.edges()[at(cell)];
-    const Index tip = from.vertex[1];
-    const auto place = [&](Index v) { return scene_.mesh->vertices[at(v)]; };
-    const Vec2 ahead = (1.0 / from.length) * (place(tip) - place(from.vertex[0]));
-    const Sym2 stress = mean_stress(state, tip);
-    Index best = -1;
-    double most = -std::numeric_limits<double>::infinity();
-    for (const Index t : path_.fan(tip)) {
-      for (const Index e : scene_.mesh->triangle_edges[at(t)]) {
-        const Edge& edge = scene_.mesh->edges[at(e)];
-        if ((edge.vertex[0] != tip && edge.vertex[1] != tip) || path_.holds(e) || edge.triangle[1] < 0)
-          continue;
-        const Vec2 along = place(edge.vertex[0] == tip ? edge.vertex[1] : edge.vertex[0]) - place(tip);
-        if (dot(along, ahead) < -0.17 * norm(along)) continue;
-        const Vec2 normal = (1.0 / norm(along)) * right_normal(along);
-        const double pull = dot(normal, stress * normal);
-        if (pull > most) {
-          most = pull;
-          best = e;
-        }
-      }
-    }
-    if (best < 0)
-      throw NumericalError(
-          fmt::format("quasi-static stage: at {:g} s the fracture has come to the boundary at "
-                      "({:g}, {:g}); make the domain larger, or end the run earlier",
-                      state.time, place(tip).x, place(tip).y));
-    return best;
-  }
-
-  // Mean effective stress [Pa] of the triangles round a vertex, by area.
-  Sym2 mean_stress(const qs::State& state, Index vertex) {
-    rock_.follow(path_.unknowns());
-    const std::vector<Vec2> u = rock_.displacement(state.jumps);
-    Sym2 sum;
-    double area = 0.0;
-    for (const Index t : path_.fan(vertex)) {
-      const auto g = bulk_.shape_gradients(t);
-      Sym2 strain;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Index v = scene_.mesh->triangles[at(t)][i];
-        Vec2 d = u[at(v)];
-        for (std::size_t k = 0; k < state.jumps.size(); ++k) {
-          const JumpUnknown& unknown = path_.unknowns()[k];
-          if (unknown.vertex == v &&
-              std::binary_search(unknown.triangles.begin(), unknown.triangles.end(), t))
-            d += state.jumps[k] * unknown.direction;
-        }
-        strain = strain + Sym2{d.x * g[i].x, d.y * g[i].y, 0.5 * (d.x * g[i].y + d.y * g[i].x)};
-      }
-      sum = sum + bulk_.area(t) * (scene_.stress + scene_.stiffness.stress(strain));
-      area += bulk_.area(t);
-    }
-    return (1.0 / area) * sum;
   }
 
   void start(Index wing) {
     const Wing& w = scene_.wings[at(wing)];
-    Index parent = -1;
+    qs::Tip tip{wing, -1, {}};
     for (std::size_t i = 0; i <= w.open; ++i) {
-      const Index c = extend(state_, wing, parent, i);
+      const Index parent = tip.cell;
+      extend(state_, tip, i);
+      const Index c = tip.cell;
       if (i == 0) state_.inlets.push_back({c, 0.0});
       if (i < w.open) {
         const double free = std::max(laws_[at(c)].broken_opening(), scene_.closure.residual_aperture);
@@ -298,9 +199,8 @@ class QuasiStatic::Solver {
         state_.cells[at(c)].points[0].max_opening = free;
         if (i > 0) state_.cells[at(parent)].points[1].max_opening = free;
       }
-      parent = c;
     }
-    state_.tips.push_back({wing, parent});
+    state_.tips.push_back(tip);
   }
 
   // Mated faces under the in-situ stress at pore pressure.
@@ -309,7 +209,7 @@ class QuasiStatic::Solver {
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
       for (std::size_t i = 0; i < 2; ++i) {
         const qs::Point& p = state_.cells[c].points[i];
-        if (p.max_opening == 0.0 || state_.cells[c].parent == of_joint) continue;
+        if (p.max_opening == 0.0 || state_.cells[c].parent == qs::of_joint) continue;
         for (const JumpTerm& t : path_.edges()[c].jump[i]) {
           state_.jumps[at(t.unknown)] = t.normal * scene_.closure.opening(-p.in_situ);
         }
@@ -318,21 +218,10 @@ class QuasiStatic::Solver {
     if (!qs::solve(equations_, state_, 0.0, 0.0).converged)
       throw NumericalError("quasi-static stage: no equilibrium of the initial fracture at pore pressure");
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
-      if (state_.cells[c].wet) state_.cells[c].mass = mass(state_, c);
+      if (state_.cells[c].wet) state_.cells[c].mass = qs::fluid_in_cell(equations_, state_, c);
     }
-    state_.initial_fracture = fracture_volume(state_);
+    state_.initial_fracture = qs::fracture_volume(state_);
     state_.initial_well = state_.well_pressure;
-  }
-
-  double mass(const qs::State& state, std::size_t c) const {
-    const auto w = qs::openings(path_.edges()[c], state.jumps);
-    return path_.edges()[c].length * 0.5 * (w[0] + w[1]) *
-           scene_.fluid.density(state.cells[c].pressure).value;
-  }
-  static double fracture_volume(const qs::State& state) {
-    double sum = 0.0;
-    for (const qs::Cell& cell : state.cells) sum += cell.mass;
-    return sum;
   }
 
   // Length of the next step: it lands on changes of the schedule and on breakdown.
@@ -390,8 +279,7 @@ class QuasiStatic::Solver {
                       "make the path longer, or end the run earlier",
                       state.time));
     }
-    const Index before = tip.cell;
-    tip.cell = extend(state, tip.wing, before, next);
+    extend(state, tip, next);
   }
 
   void fill(qs::State& state, Index cell) const {
@@ -419,7 +307,6 @@ class QuasiStatic::Solver {
   }
 
   QuasiStaticRow commit(qs::State trial, double until, double dt, double rate, int iterations) {
-    QuasiStaticRow row;
     for (std::size_t c = 0; c < trial.cells.size(); ++c) {
       qs::Cell& cell = trial.cells[c];
       const auto w = qs::openings(path_.edges()[c], trial.jumps);
@@ -427,7 +314,7 @@ class QuasiStatic::Solver {
         const double lost = qs::leak(equations_, trial, static_cast<Index>(c), cell.pressure, dt).value;
         cell.leaked += lost;
         trial.leaked += lost;
-        cell.mass = mass(trial, c);
+        cell.mass = qs::fluid_in_cell(equations_, trial, c);
         if (matrix_ && trial.time >= cell.exposed) {
           const std::size_t n = matrix_->cells();
           matrix_->advance(std::span(trial.matrix).subspan(c * n, n), dt, cell.pressure);
@@ -448,9 +335,7 @@ class QuasiStatic::Solver {
       if (cell.wet && damage >= 1.0) cell.exposed = std::min(cell.exposed, until);
     }
     trial.injected += rate * dt;
-    if (trial.connected) {
-      for (const qs::Inlet& inlet : trial.inlets) row.perforation_rate += inlet.rate;
-    }
+    const bool entered = trial.connected;
     const bool changes = until >= scene_.pump.next_change(state_.time);
     trial.time = until;
     trial.step = dt * scene_.control.growth;
@@ -464,49 +349,12 @@ class QuasiStatic::Solver {
     trial.rejected = state_.rejected;
     trial.iterations = state_.iterations;
     state_ = std::move(trial);
-    describe(row);
+    QuasiStaticRow row = qs::row_of(equations_, state_);
+    for (const qs::Inlet& inlet : state_.inlets) row.perforation_rate += entered ? inlet.rate : 0.0;
     row.step = dt;
     row.rate = rate;
     row.iterations = iterations;
     return row;
-  }
-
-  void describe(QuasiStaticRow& row) const {
-    row.time = state_.time;
-    row.well_pressure = state_.well_pressure;
-    row.injected = state_.injected;
-    row.well_stored = scene_.well.storage * (state_.well_pressure - state_.initial_well);
-    row.fracture_volume = fracture_volume(state_);
-    row.leaked = state_.leaked;
-    row.energies = state_.energies;
-    row.mass_defect =
-        row.injected - row.well_stored - (row.fracture_volume - state_.initial_fracture) - row.leaked;
-    row.least_pressure = std::numeric_limits<double>::infinity();
-    double wet = 0.0, touching = 0.0;
-    for (std::size_t c = 0; c < state_.cells.size(); ++c) {
-      const qs::Cell& cell = state_.cells[c];
-      const PathEdge& edge = path_.edges()[c];
-      const auto w = qs::openings(edge, state_.jumps);
-      for (std::size_t i = 0; i < 2; ++i) {
-        const double half = 0.5 * edge.length, most = cell.points[i].max_opening;
-        if (cell.parent == of_joint) continue;
-        row.dissipated += half * laws_[c].dissipated(most);
-        if (most >= laws_[c].broken_opening()) row.broken_length += half;
-        if (most > laws_[c].elastic_opening()) row.damaged_length += half;
-        if (cell.wet && w[i] < std::min(most, scene_.closure.residual_aperture)) touching += half;
-      }
-      if (!cell.wet || cell.parent == of_joint) continue;
-      wet += edge.length;
-      row.mean_opening += 0.5 * edge.length * (w[0] + w[1]);
-      row.least_pressure = std::min(row.least_pressure, cell.pressure);
-    }
-    row.mean_opening /= wet;
-    row.contact_fraction = touching / wet;
-    for (const qs::Inlet& inlet : state_.inlets) {
-      const auto n = static_cast<double>(state_.inlets.size());
-      row.fracture_pressure += state_.cells[at(inlet.cell)].pressure / n;
-      row.opening += qs::openings(path_.edges()[at(inlet.cell)], state_.jumps)[0] / n;
-    }
   }
 
   [[noreturn]] void stop(double dt) const {
@@ -540,7 +388,7 @@ QuasiStatic::~QuasiStatic() = default;
 const QuasiStaticScene& QuasiStatic::scene() const { return solver_->scene(); }
 double QuasiStatic::time() const { return state().time; }
 const quasi_static::State& QuasiStatic::state() const { return solver_->state(); }
-QuasiStaticRow QuasiStatic::row() const { return solver_->row(); }
+QuasiStaticRow QuasiStatic::row() const { return qs::row_of(solver_->equations(), state()); }
 QuasiStaticRow QuasiStatic::step(double end) { return solver_->step(end); }
 void QuasiStatic::run(double end, const std::function<void(const QuasiStaticRow&)>& record) {
   while (time() < end) {
@@ -548,11 +396,13 @@ void QuasiStatic::run(double end, const std::function<void(const QuasiStaticRow&
     if (record) record(row);
   }
 }
-std::vector<FractureCell> QuasiStatic::cells() const { return solver_->cells(); }
+std::vector<FractureCell> QuasiStatic::cells() const { return qs::cells_of(solver_->equations(), state()); }
 const FracturePath& QuasiStatic::path() const { return solver_->path(); }
-std::vector<Vec2> QuasiStatic::corner_displacement() const { return solver_->corner_displacement(); }
+std::vector<Vec2> QuasiStatic::corner_displacement() const {
+  return qs::corners_of(solver_->equations(), state());
+}
 std::vector<Sym2> QuasiStatic::stress(const std::vector<Vec2>& corner_displacement) const {
-  return solver_->stress(corner_displacement);
+  return qs::stress_of(solver_->equations(), corner_displacement);
 }
 double QuasiStatic::strength() const { return solver_->strength(); }
 

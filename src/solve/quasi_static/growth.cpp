@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "growth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "crackle/core/errors.hpp"
+
+namespace crackle::quasi_static {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Displacement of a corner of a triangle, with the jumps [m].
+Vec2 corner(const Equations& e, const State& state, const std::vector<Vec2>& intact, Index t, Index v) {
+  Vec2 d = intact[at(v)];
+  for (std::size_t k = 0; k < state.jumps.size(); ++k) {
+    const JumpUnknown& unknown = e.path.unknowns()[k];
+    if (unknown.vertex == v && std::binary_search(unknown.triangles.begin(), unknown.triangles.end(), t))
+      d += state.jumps[k] * unknown.direction;
+  }
+  return d;
+}
+
+// Triangles ahead of a vertex at most two edges off.
+std::vector<Index> ahead_of(const Equations& e, Index vertex, Vec2 direction) {
+  const Mesh& mesh = *e.scene.mesh;
+  std::set<Index> near;
+  for (const Index t : e.path.fan(vertex)) {
+    for (const Index v : mesh.triangles[at(t)]) {
+      const std::vector<Index> round = e.path.fan(v);
+      near.insert(round.begin(), round.end());
+    }
+  }
+  std::vector<Index> ahead;
+  for (const Index t : near) {
+    const auto& v = mesh.triangles[at(t)];
+    const Vec2 centre =
+        (1.0 / 3.0) * (mesh.vertices[at(v[0])] + mesh.vertices[at(v[1])] + mesh.vertices[at(v[2])]);
+    if (dot(centre - mesh.vertices[at(vertex)], direction) > 0.0) ahead.push_back(t);
+  }
+  return ahead;
+}
+
+// Mean effective stress of triangles [Pa], by area.
+Sym2 mean_stress(const Equations& e, const State& state, const std::vector<Index>& triangles) {
+  const std::vector<Vec2> u = e.rock.displacement(state.jumps);
+  Sym2 sum;
+  double area = 0.0;
+  for (const Index t : triangles) {
+    const auto g = e.bulk.shape_gradients(t);
+    Sym2 strain;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 d = corner(e, state, u, t, e.scene.mesh->triangles[at(t)][i]);
+      strain = strain + Sym2{d.x * g[i].x, d.y * g[i].y, 0.5 * (d.x * g[i].y + d.y * g[i].x)};
+    }
+    sum = sum + e.bulk.area(t) * (e.scene.stress + e.scene.stiffness.stress(strain));
+    area += e.bulk.area(t);
+  }
+  return (1.0 / area) * sum;
+}
+
+// Unit vector across the largest principal stress, on the side of `forward`.
+Vec2 across_largest(const Sym2& s, Vec2 forward) {
+  const double angle = 0.5 * std::atan2(2.0 * s.xy, s.xx - s.yy);
+  const Vec2 along{-std::sin(angle), std::cos(angle)};
+  return dot(along, forward) < 0.0 ? -1.0 * along : along;
+}
+
+}  // namespace
+
+NextEdge choose_edge(const Equations& e, const State& state, const Tip& tip) {
+  const Mesh& mesh = *e.scene.mesh;
+  const PathEdge& from = e.path.edges()[at(tip.cell)];
+  const Vec2 here = mesh.vertices[at(from.vertex[1])];
+  Vec2 forward = right_normal(from.normal);  // along the fracture
+  if (dot(forward, here - mesh.vertices[at(from.vertex[0])]) < 0.0) forward = -1.0 * forward;
+  const std::vector<Index> ahead = ahead_of(e, from.vertex[1], forward);
+  const Vec2 along = ahead.empty() ? forward : across_largest(mean_stress(e, state, ahead), forward);
+  // A point of the smooth fracture a little further on than an edge reaches.
+  const Vec2 goal = tip.place + (dot(here - tip.place, along) + 1.5 * from.length) * along;
+  const Vec2 way = (1.0 / norm(goal - here)) * (goal - here);
+  NextEdge best;
+  double most = -0.17;  // turns by less than 100 degrees
+  for (const Index t : e.path.fan(from.vertex[1])) {
+    for (const Index candidate : mesh.triangle_edges[at(t)]) {
+      const Edge& edge = mesh.edges[at(candidate)];
+      if ((edge.vertex[0] != from.vertex[1] && edge.vertex[1] != from.vertex[1]) || e.path.holds(candidate) ||
+          edge.triangle[1] < 0)
+        continue;
+      const Vec2 end = mesh.vertices[at(edge.vertex[edge.vertex[0] == from.vertex[1] ? 1 : 0])];
+      const double length = norm(end - here), aligned = dot(end - here, way) / length;
+      if (aligned <= most) continue;
+      most = aligned;
+      best = {candidate, std::max(dot(end - tip.place, along), 0.2 * length) * along};
+    }
+  }
+  if (best.edge < 0) {
+    throw NumericalError(
+        fmt::format("quasi-static stage: at {:g} s the fracture has come to the boundary at "
+                    "({:g}, {:g}); make the domain larger, or end the run earlier",
+                    state.time, here.x, here.y));
+  }
+  return best;
+}
+
+}  // namespace crackle::quasi_static

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a fracture goes that no path is laid down for.
+#pragma once
+
+#include "newton.hpp"
+
+namespace crackle::quasi_static {
+
+struct NextEdge {
+  Index edge = -1;  ///< of the mesh
+  Vec2 along;       ///< piece of the smooth fracture that it stands for [m]
+};
+
+/// The mesh edge that a free wing takes next. The fracture is a smooth one: it goes on across the largest
+/// principal stress, the mean of the triangles ahead of the tip that are at most two edges off (by area;
+/// Wells and Sluys 2001 take such a mean). Of the edges at the tip the one that leads nearest to that line
+/// stands for it, with its direction and the length it covers of it: a zigzag of mesh edges costs no more
+/// energy, and under a deviatoric stress pinches no more, than the fracture meant.
+/// The rock has to have followed the path. @throws NumericalError at the boundary of the domain
+NextEdge choose_edge(const Equations& equations, const State& state, const Tip& tip);
+
+}  // namespace crackle::quasi_static

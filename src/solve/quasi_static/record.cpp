@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "record.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace crackle::quasi_static {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+double fluid_in_cell(const Equations& e, const State& state, std::size_t c) {
+  const auto w = openings(e.path.edges()[c], state.jumps);
+  return e.path.edges()[c].length * 0.5 * (w[0] + w[1]) *
+         e.scene.fluid.density(state.cells[c].pressure).value;
+}
+
+double fracture_volume(const State& state) {
+  double sum = 0.0;
+  for (const Cell& cell : state.cells) sum += cell.mass;
+  return sum;
+}
+
+QuasiStaticRow row_of(const Equations& e, const State& state) {
+  QuasiStaticRow row;
+  row.time = state.time;
+  row.well_pressure = state.well_pressure;
+  row.injected = state.injected;
+  row.well_stored = e.scene.well.storage * (state.well_pressure - state.initial_well);
+  row.fracture_volume = fracture_volume(state);
+  row.leaked = state.leaked;
+  row.energies = state.energies;
+  row.mass_defect =
+      row.injected - row.well_stored - (row.fracture_volume - state.initial_fracture) - row.leaked;
+  row.least_pressure = std::numeric_limits<double>::infinity();
+  double wet = 0.0, touching = 0.0;
+  for (std::size_t c = 0; c < state.cells.size(); ++c) {
+    const Cell& cell = state.cells[c];
+    const PathEdge& edge = e.path.edges()[c];
+    const auto w = openings(edge, state.jumps);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double half = 0.5 * edge.length, most = cell.points[i].max_opening;
+      if (cell.parent == of_joint) continue;
+      row.dissipated += half * e.laws[c].dissipated(most);
+      if (most >= e.laws[c].broken_opening()) row.broken_length += half;
+      if (most > e.laws[c].elastic_opening()) row.damaged_length += half;
+      if (cell.wet && w[i] < std::min(most, e.scene.closure.residual_aperture)) touching += half;
+    }
+    if (!cell.wet || cell.parent == of_joint) continue;
+    wet += edge.length;
+    row.mean_opening += 0.5 * edge.length * (w[0] + w[1]);
+    row.least_pressure = std::min(row.least_pressure, cell.pressure);
+  }
+  row.mean_opening /= wet;
+  row.contact_fraction = touching / wet;
+  for (const Inlet& inlet : state.inlets) {
+    const auto n = static_cast<double>(state.inlets.size());
+    row.fracture_pressure += state.cells[at(inlet.cell)].pressure / n;
+    row.opening += openings(e.path.edges()[at(inlet.cell)], state.jumps)[0] / n;
+  }
+  return row;
+}
+
+std::vector<FractureCell> cells_of(const Equations& e, const State& state) {
+  std::vector<FractureCell> list;
+  for (std::size_t c = 0; c < state.cells.size(); ++c) {
+    const Cell& cell = state.cells[c];
+    const PathEdge& edge = e.path.edges()[c];
+    const Index source = pressure_source(e, state, static_cast<Index>(c));
+    FractureCell f;
+    f.edge = edge.edge;
+    f.length = edge.length;
+    f.joint = cell.parent == of_joint;
+    f.opening = openings(edge, state.jumps);
+    f.slip = slips(edge, state.jumps);
+    for (std::size_t i = 0; i < 2; ++i) f.damage[i] = e.laws[c].damage(cell.points[i].max_opening);
+    f.wet = cell.wet;
+    f.pressure = source < 0 ? e.scene.pore_pressure : state.cells[at(source)].pressure;
+    f.leaked = cell.leaked;
+    list.push_back(f);
+  }
+  return list;
+}
+
+std::vector<Vec2> corners_of(const Equations& e, const State& state) {
+  const Mesh& mesh = *e.scene.mesh;
+  const std::vector<Vec2> u = e.rock.displacement(state.jumps);
+  std::vector<Vec2> corners;
+  for (const auto& triangle : mesh.triangles) {
+    for (const Index v : triangle) corners.push_back(u[at(v)]);
+  }
+  for (std::size_t k = 0; k < state.jumps.size(); ++k) {
+    const JumpUnknown& unknown = e.path.unknowns()[k];
+    for (const Index t : unknown.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (mesh.triangles[at(t)][i] == unknown.vertex)
+          corners[3 * at(t) + i] += state.jumps[k] * unknown.direction;
+      }
+    }
+  }
+  return corners;
+}
+
+std::vector<Sym2> stress_of(const Equations& e, const std::vector<Vec2>& corners) {
+  std::vector<Sym2> stress;
+  for (Index t = 0; t < e.scene.mesh->triangle_count(); ++t) {
+    const auto g = e.bulk.shape_gradients(t);
+    Sym2 strain;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 u = corners[3 * at(t) + i];
+      strain = strain + Sym2{u.x * g[i].x, u.y * g[i].y, 0.5 * (u.x * g[i].y + u.y * g[i].x)};
+    }
+    stress.push_back(e.scene.stress + e.scene.stiffness.stress(strain));
+  }
+  return stress;
+}
+
+}  // namespace crackle::quasi_static
