@@ -21,13 +21,15 @@ Row activation(const std::string& setting, double x) {
   scene.insertion.on_demand = insertion_of(setting) == "on_demand";
   scene.insertion.threshold = 0.8 * x;  // elements come in the first steps
   scene.stress = {x * scene.cohesive.tensile_strength, 0.0, 0.0};
-  Simulation simulation(scene);
-  State& state = simulation.state();
-  const double dt = 0.5 * simulation.stable_limit();
-  for (int i = 0; i < 3; ++i) simulation.step(dt);
+  Simulation begun(scene);
+  const double dt = 0.5 * begun.stable_limit();
+  for (int i = 0; i < 3; ++i) begun.step(dt);
+  State loaded = begun.state();
   if (is_naive(setting)) {  // as if they came unloaded
-    for (auto& offset : state.cohesive.offset) offset = {};
+    for (auto& offset : loaded.cohesive.offset) offset = {};
   }
+  Simulation simulation(scene, std::move(loaded), begun.memory());
+  const State& state = simulation.state();
   Row row{"activation", setting, x};
   row.predicted = is_naive(setting) ? 1.0 : 0.0;
   row.fastest = 0.0;
