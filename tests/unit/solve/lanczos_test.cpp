@@ -167,6 +167,32 @@ TEST(Lanczos, StepIsOnTheSafeSideWithViscosity) {
   }
 }
 
+// Few products find too low a frequency; the safe step knows that it may be.
+TEST(Lanczos, SafeStepIsNeverTooLong) {
+  double lowest = 1.0, sharpest = 0.0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const auto mesh = granite::free_body(
+        jittered(structured_rectangle({0, 0}, {1, 1}, 6, 6, MeshPattern::cross), 0.3, seed));
+    for (const double penalty : {0.0, 10.0}) {
+      const Built b({"jittered", mesh, penalty, 0.1});
+      const HighestFrequency sure = highest_frequency(b.state, b.bulk, b.cohesive.get(), 200);
+      for (const int products : {4, 8, 20, 40, 80}) {
+        const HighestFrequency found = highest_frequency(b.state, b.bulk, b.cohesive.get(), products);
+        lowest = std::min(lowest, found.frequency / sure.frequency);
+        sharpest = std::max(sharpest, found.safe_step() / sure.stable_step());
+        EXPECT_LE(found.frequency, sure.frequency * (1.0 + 1e-9));
+        EXPECT_LE(found.viscous_rate, sure.viscous_rate * (1.0 + 1e-9));
+        EXPECT_LE(found.safe_step(), sure.stable_step() * (1.0 + 1e-9))
+            << products << " products, seed " << seed;
+      }
+    }
+  }
+  std::printf("estimates down to %.3f of the frequency; safe steps up to %.3f of the true one\n", lowest,
+              sharpest);
+  EXPECT_LT(lowest, 0.99) << "the estimate alone would have been too long a step";
+  EXPECT_GT(sharpest, 0.95);
+}
+
 TEST(Lanczos, SharpenedStepIsLongerThanTheProvenOneAndStable) {
   for (const Body& body : bodies(5)) {
     const Built b(body);
