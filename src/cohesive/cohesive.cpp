@@ -40,71 +40,21 @@ Vec2 normal_of(const CohesiveElements& c, std::size_t element) {
   return right_normal(c.inverse_length[element] * c.direction[element]);
 }
 
-// Intact elements are evaluated in chunks that are first laid out component by component, so that it
-// vectorises.
-constexpr int chunk = 64;
-struct Chunk {
-  double ax0[chunk], ay0[chunk], ax1[chunk], ay1[chunk], bx0[chunk], by0[chunk], bx1[chunk], by1[chunk];
-  double dx[chunk], dy[chunk], inverse_length[chunk];
-  double o0[chunk], s0[chunk], o1[chunk], s1[chunk];
-  double penalty[chunk], tensile_strength[chunk], cohesion[chunk], tan_friction[chunk];
-  double fx0[chunk], fy0[chunk], fx1[chunk], fy1[chunk];
-  double beyond[chunk];
-};
-
-inline void evaluate_chunk(Chunk& c, double curvature, int count) {
-#pragma omp simd
-  for (int i = 0; i < count; ++i) {
-    const ElasticElement<double> e{c.bx0[i] - c.ax0[i],
-                                   c.by0[i] - c.ay0[i],
-                                   c.bx1[i] - c.ax1[i],
-                                   c.by1[i] - c.ay1[i],
-                                   c.dx[i] + 0.5 * ((c.ax1[i] + c.bx1[i]) - (c.ax0[i] + c.bx0[i])),
-                                   c.dy[i] + 0.5 * ((c.ay1[i] + c.by1[i]) - (c.ay0[i] + c.by0[i])),
-                                   (c.dx[i] * c.dx[i] + c.dy[i] * c.dy[i]) * c.inverse_length[i],
-                                   c.inverse_length[i],
-                                   c.o0[i],
-                                   c.s0[i],
-                                   c.o1[i],
-                                   c.s1[i]};
-    const auto f = elastic_forces<double, double>(
-        e, {c.penalty[i], c.tensile_strength[i], c.cohesion[i], c.tan_friction[i], curvature});
-    c.fx0[i] = f.x0;
-    c.fy0[i] = f.y0;
-    c.fx1[i] = f.x1;
-    c.fy1[i] = f.y1;
-    c.beyond[i] = f.beyond;
-  }
-}
-
-// Writes the forces of the elements listed, and collects those near their strength.
-CRACKLE_KERNEL void elastic_elements(const Vec2* u, CohesiveElements& elements,
-                                     const CohesiveMaterial* materials, double curvature,
-                                     std::span<const Index> list, std::vector<Index>& near) {
-  Chunk c;
-  for (std::size_t first = 0; first < list.size(); first += chunk) {
-    const int count = static_cast<int>(std::min<std::size_t>(chunk, list.size() - first));
-    for (int i = 0; i < count; ++i) {
-      const std::size_t e = at(list[first + i]);
-      const std::array<Index, 4>& n = elements.nodes[e];
-      const Vec2 a0 = u[n[0]], a1 = u[n[1]], b0 = u[n[2]], b1 = u[n[3]];
-      c.ax0[i] = a0.x, c.ay0[i] = a0.y, c.ax1[i] = a1.x, c.ay1[i] = a1.y;
-      c.bx0[i] = b0.x, c.by0[i] = b0.y, c.bx1[i] = b1.x, c.by1[i] = b1.y;
-      c.dx[i] = elements.direction[e].x, c.dy[i] = elements.direction[e].y;
-      c.inverse_length[i] = elements.inverse_length[e];
-      const std::array<double, 4>& o = elements.offset[e];
-      c.o0[i] = o[0], c.s0[i] = o[1], c.o1[i] = o[2], c.s1[i] = o[3];
-      const CohesiveMaterial& rock = materials[elements.material[e]];
-      const CohesiveMaterial m = rock.bedding ? on_plane(rock, normal_of(elements, e)) : rock;
-      c.penalty[i] = m.penalty, c.tensile_strength[i] = m.tensile_strength;
-      c.cohesion[i] = m.cohesion, c.tan_friction[i] = m.tan_friction;
-    }
-    evaluate_chunk(c, curvature, count);
-    for (int i = 0; i < count; ++i) {
-      elements.force[at(list[first + i])] = {{c.fx0[i], c.fy0[i]}, {c.fx1[i], c.fy1[i]}};
-      if (c.beyond[i] > 0.0) near.push_back(list[first + i]);
-    }
-  }
+// Of an intact element, with how near it is to its strength.
+ElasticForces<double> elastic_element(const State& state, const CohesiveMaterial& m, double curvature,
+                                      Index element) {
+  const CohesiveElements& c = state.cohesive;
+  const auto& n = c.nodes[at(element)];
+  const auto& offset = c.offset[at(element)];
+  const Vec2 direction = c.direction[at(element)];
+  const Vec2 a0 = state.displacement[at(n[0])], a1 = state.displacement[at(n[1])],
+             b0 = state.displacement[at(n[2])], b1 = state.displacement[at(n[3])];
+  const Vec2 gap0 = b0 - a0, gap1 = b1 - a1, along = direction + 0.5 * ((a1 + b1) - (a0 + b0));
+  return elastic_forces<double, double>(
+      {gap0.x, gap0.y, gap1.x, gap1.y, along.x, along.y,
+       dot(direction, direction) * c.inverse_length[at(element)], c.inverse_length[at(element)], offset[0],
+       offset[1], offset[2], offset[3]},
+      {m.penalty, m.tensile_strength, m.cohesion, m.tan_friction, curvature});
 }
 
 // In the exact calibration a point has what its insertion gave it on top of the fracture energies, in
@@ -293,14 +243,18 @@ void Cohesive::load_springs(State& state, Index element) const {
 }
 
 void Cohesive::add_tractions(State& state) {
-  const CohesiveElements& c = state.cohesive;
-  std::vector<std::vector<Index>> intact(at(block_count(c.initial)));
+  CohesiveElements& c = state.cohesive;
+  std::vector<std::vector<Index>> near(at(block_count(c.initial)));
   for_each_block(c.initial, [&](Index begin, Index end, Index block) {
     for (Index i = begin; i < end; ++i) {
-      if (c.history_of[at(i)] < 0) intact[at(block)].push_back(i);
+      if (c.history_of[at(i)] >= 0) continue;
+      const auto f = elastic_element(state, material(state, i), law_->curvature(), i);
+      c.force[at(i)] = {{f.x0, f.y0}, {f.x1, f.y1}};
+      if (f.beyond > 0.0) near[at(block)].push_back(i);
     }
   });
-  add_tractions(state, intact);
+  for (const auto& elements : near) start_histories(state, elements, 0.0);
+  advance_histories(state);
 }
 
 void Cohesive::start_histories(State& state, std::span<const Index> elements, double before) {
@@ -315,18 +269,9 @@ void Cohesive::start_histories(State& state, std::span<const Index> elements, do
   }
 }
 
-void Cohesive::add_tractions(State& state, std::span<const std::vector<Index>> intact) {
+void Cohesive::advance_histories(State& state) {
   CohesiveElements& c = state.cohesive;
   newly_broken_.clear();
-  changed_ = false;
-  if (c.count() == 0) return;
-  std::vector<std::vector<Index>> near(intact.size());
-  for_each_block(static_cast<Index>(intact.size()) * block_size, [&](Index, Index, Index part) {
-    elastic_elements(state.displacement.data(), c, materials_.data(), law_->curvature(), intact[at(part)],
-                     near[at(part)]);
-  });
-  for (const auto& elements : near) start_histories(state, elements, 0.0);
-  // Elements with a history, one by one.
   const Index active = static_cast<Index>(c.histories.size());
   std::vector<Dissipation> partial(at(block_count(active)));
   std::vector<std::vector<Index>> broken(partial.size());
@@ -346,7 +291,6 @@ void Cohesive::add_tractions(State& state, std::span<const std::vector<Index>> i
     newly_broken_.insert(newly_broken_.end(), broken[b].begin(), broken[b].end());
   }
   std::sort(newly_broken_.begin(), newly_broken_.end());
-  changed_ = !newly_broken_.empty();
 }
 
 void Cohesive::cut(State& state, Index element) const {

@@ -598,7 +598,7 @@ void Simulation::advance(double dt, Energies* account) {
   new_events_.clear();
   heed_new_histories();
   if (cohesive_) {
-    cohesive_->add_tractions(state_, tiles_->apart());
+    cohesive_->advance_histories(state_);
     if (!damage_ && !stressed_.empty()) insert_stressed();
     stopwatch_.lap(Stopwatch::cohesive);
   }

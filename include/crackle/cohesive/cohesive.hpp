@@ -39,19 +39,16 @@ class Cohesive {
   /// Evaluates all elements: writes their end forces, grows damage, books dissipation to the state
   /// and collects the elements that broke (newly_broken()).
   void add_tractions(State& state);
-  /// The same, but of the intact elements only those listed (in parts that are evaluated in parallel): the
-  /// forces of the others are found where they are needed.
-  void add_tractions(State& state, std::span<const std::vector<Index>> intact);
+  /// The same for the elements with a history alone: Tiles finds the forces of the intact ones.
+  void advance_histories(State& state);
 
   /// Gives intact elements that are near their strength a history: from now on they are evaluated point by
   /// point, first from where they were some time [s] before, when that was seen, so that what they have done
   /// since is booked. @param elements in ascending order
   void start_histories(State& state, std::span<const Index> elements, double before);
 
-  /// Elements broken by the last add_tractions(), in ascending order.
+  /// Elements broken by the last add_tractions() or advance_histories(), in ascending order.
   std::span<const Index> newly_broken() const { return newly_broken_; }
-  /// True if the last add_tractions() gave an element its first damage or broke one.
-  bool changed() const { return changed_; }
 
   /// Breaks an element by hand (a pre-cut crack): no cohesion left, no energy booked.
   void cut(State& state, Index element) const;
@@ -106,7 +103,6 @@ class Cohesive {
   std::shared_ptr<const CohesiveLaw> law_;
   std::vector<CohesiveMaterial> materials_;
   std::vector<Index> newly_broken_;
-  bool changed_ = false;
 };
 
 }  // namespace crackle

@@ -33,20 +33,25 @@ struct ElasticForces {
   V beyond;          ///< above zero: near its strength
 };
 
+/// The larger of two numbers, lane by lane.
+template <class V>
+[[gnu::always_inline]] inline V larger(V a, V b) {
+  return a > b ? a : b;
+}
+
 template <class V, class M>
 [[gnu::always_inline]] inline ElasticForces<V> elastic_forces(const ElasticElement<V>& e,
                                                               const ElasticLimits<M>& m) {
+  const V zero{};
   const double quarter = m.curvature / 4.0;
   const double limit = near_strength * (1.0 + m.curvature);
-  const auto above_zero = [](V a) { return a > 0.0 ? a : V{}; };
-  const auto larger = [](V a, V b) { return a > b ? a : b; };
-  const auto size = [](V a) { return a < 0.0 ? -a : a; };
-  // Direction of the middle line, made a unit vector by two Newton steps from the reference length:
+  // Direction of the middle line over its reference length, made a unit vector by two Newton steps from one:
   // exact to round-off for the strains of intact rock.
-  const V half = 0.5 * (e.along_x * e.along_x + e.along_y * e.along_y);
-  V r = e.inverse_length * (1.5 - half * e.inverse_length * e.inverse_length);
-  r = r * (1.5 - half * r * r);
-  const V tx = e.along_x * r, ty = e.along_y * r;
+  const V ex = e.along_x * e.inverse_length, ey = e.along_y * e.inverse_length;
+  const V half = 0.5 * (ex * ex + ey * ey);
+  const V once = 1.5 - half;
+  const V r = once * (1.5 - half * (once * once));
+  const V tx = ex * r, ty = ey * r;
   // normal (t.y, −t.x) points from face a to face b
   const V k = m.penalty * e.inverse_length;
   const V tn0 = k * (e.gap0_x * ty - e.gap0_y * tx + e.opening0);
@@ -54,26 +59,30 @@ template <class V, class M>
   const V tn1 = k * (e.gap1_x * ty - e.gap1_y * tx + e.opening1);
   const V ts1 = k * (e.gap1_x * tx + e.gap1_y * ty + e.slip1);
   const V tnm = 0.5 * (tn0 + tn1), tsm = 0.5 * (ts0 + ts1);
-  const V pull0 = above_zero(tn0), pull1 = above_zero(tn1), pullm = above_zero(tnm);
+  const V pull0 = larger(tn0, zero), pull1 = larger(tn1, zero), pullm = larger(tnm, zero);
   const M bend = quarter / m.tensile_strength;
-  const V n0 = tn0 - bend * pull0 * pull0, n1 = tn1 - bend * pull1 * pull1, nm = tnm - bend * pullm * pullm;
-  const V strength0 = m.cohesion + m.tan_friction * above_zero(-n0);
-  const V strength1 = m.cohesion + m.tan_friction * above_zero(-n1);
-  const V strengthm = m.cohesion + m.tan_friction * above_zero(-nm);
+  const V n0 = tn0 - bend * (pull0 * pull0), n1 = tn1 - bend * (pull1 * pull1),
+          nm = tnm - bend * (pullm * pullm);
+  // pull − tn is what presses
+  const V strength0 = m.cohesion + m.tan_friction * (pull0 - tn0);
+  const V strength1 = m.cohesion + m.tan_friction * (pull1 - tn1);
+  const V strengthm = m.cohesion + m.tan_friction * (pullm - tnm);
   // One division for the three of s = t − ¼ c t |t| / strength.
   const V both = strength0 * strength1;
   const V share = quarter / (both * strengthm);
-  const V push0 = size(ts0), push1 = size(ts1), pushm = size(tsm);
-  const V s0 = ts0 - ts0 * push0 * (share * (strength1 * strengthm));
-  const V s1 = ts1 - ts1 * push1 * (share * (strength0 * strengthm));
-  const V sm = tsm - tsm * pushm * (share * both);
+  const V push0 = larger(ts0, -ts0), push1 = larger(ts1, -ts1), pushm = larger(tsm, -tsm);
+  const V rest = share * strengthm;
+  const V s0 = ts0 - (ts0 * push0) * (rest * strength1);
+  const V s1 = ts1 - (ts1 * push1) * (rest * strength0);
+  const V sm = tsm - (tsm * pushm) * (share * both);
   // Near its strength already? The middle lies between the ends.
   const V beyond = larger(larger(pull0, pull1) - limit * m.tensile_strength,
                           larger(push0 - limit * strength0, push1 - limit * strength1));
   // Simpson's rule; the middle's share goes half to each end.
   const V sixth = e.length * (1.0 / 6.0);
-  const V p0 = sixth * (n0 + 2.0 * nm), q0 = sixth * (s0 + 2.0 * sm);
-  const V p1 = sixth * (n1 + 2.0 * nm), q1 = sixth * (s1 + 2.0 * sm);
+  const V nm2 = nm + nm, sm2 = sm + sm;
+  const V p0 = sixth * (n0 + nm2), q0 = sixth * (s0 + sm2);
+  const V p1 = sixth * (n1 + nm2), q1 = sixth * (s1 + sm2);
   return {p0 * ty + q0 * tx, q0 * ty - p0 * tx, p1 * ty + q1 * tx, q1 * ty - p1 * tx, beyond};
 }
 

@@ -3,9 +3,9 @@
 // One explicit step of rock and intact cohesive elements, tile by tile. A tile is a block of triangles that
 // follow one another along the Hilbert curve, with its nodes copied into arrays that stay in the first cache:
 // forces are summed there, and nodes that no other tile has a corner of move at once. What several tiles have
-// a part in is summed over the tiles in their order and moves after. Elements are evaluated in the tile where
-// both their triangles lie in it and they are intact; the others' forces (state.cohesive.force) are only
-// added.
+// a part in is summed over the tiles in their order and moves after. A cohesive element belongs to the tile
+// of its face a, which has its other two nodes among its own: it is evaluated there while it is intact; the
+// force of one with a history (state.cohesive.force) is only added.
 //
 // Memory moved and operations per triangle and step: cases/scaling/README.md.
 #pragma once
@@ -43,8 +43,6 @@ class Tiles {
 
   /// Elements that the last move() found near their strength and that have no history yet, ascending.
   std::span<const Index> near() const { return near_; }
-  /// Intact elements that move() does not evaluate, by tiles.
-  std::span<const std::vector<Index>> apart() const { return apart_; }
 
   /// Tells that triangles were damaged: their forces (state.damage) are only added.
   void triangles_changed(const State& state, const Physics& physics, std::span<const Index> triangles);
@@ -61,13 +59,16 @@ class Tiles {
   void number_nodes(const State& state, Index i);
   void number_corners(const State& state, const Bulk& bulk, Index i);
   void list_elements(const State& state, const Cohesive* cohesive, Index i);
+  static void set_element(const State& state, Tile& tile, int group, int lane, Index element);
+  template <class Visit>
+  static void for_shared(const Tile& tile, const Visit& visit);
   void link(const State& state, Index i);
   void work(State& state, const Physics& physics, Index i, double dt, const StressScreen& screen,
             std::span<std::uint8_t> stressed, std::span<char> tile_stressed);
   void move_shared(State& state, const Tile& tile, double dt) const;
 
   std::vector<Tile> tiles_;
-  std::vector<std::vector<Index>> apart_, near_of_tile_;
+  std::vector<std::vector<Index>> near_of_tile_;
   std::vector<Index> near_;
   std::vector<double> power_;
 };

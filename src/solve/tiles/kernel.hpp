@@ -24,13 +24,38 @@ struct Ahead {
   int lines;  ///< a group
 };
 
-/// Triangles of a tile by groups of eight. A node of the tile has four numbers: displacement and reference
-/// position, and is named by twice its number. Arrays of numbers have one row of eight a group (and
-/// component).
+/// Nodes that follow one another in the state and in the tile.
+struct Run {
+  std::int32_t node;  ///< the first, in the state
+  std::uint16_t local, count;
+};
+
+/// Vectors of nodes, copied from the state.
+struct CopyWork {
+  const Run* run;
+  const Run* end;
+  const double* from;  ///< [node of the state][x y]
+  double* to;          ///< [node][x y]
+};
+
+/// v += Δt f/m, x += Δt v
+struct MoveWork {
+  const Run* run;
+  const Run* end;
+  double dt;
+  const double* force;         ///< [node][x y]
+  const double* inverse_mass;  ///< [node of the state]
+  double* velocity;            ///< [node of the state][x y]
+  double* displacement;
+};
+
+/// Triangles of a tile by groups of eight. A node of the tile is named by twice its number. Arrays of numbers
+/// have one row of eight a group (and component).
 struct RockWork {
   int groups;
   const std::uint16_t* corners;  ///< [group][corner][lane], a node of the tile
-  const double* nodes;           ///< [node][ux uy X Y]
+  const double* sides;           ///< [group][from corner 0 to 1, to 2: x y x y][lane], reference
+  const double* displacement;    ///< [node][x y]
   double* force;                 ///< [node][x y], added to
   PlaneStiffness stiffness;
   Sym2 in_situ;
@@ -47,19 +72,23 @@ struct RockWork {
   Ahead ahead;
 };
 
-/// Intact cohesive elements whose two triangles lie in the tile.
+/// Intact cohesive elements.
 struct ElementWork {
   int groups;
   const std::uint16_t* ends;  ///< [group][a0 a1 b0 b1][lane], a node of the tile
-  const double* numbers;      ///< [group][1/length, opening0, slip0, opening1, slip1][lane]
-  const double* nodes;
+  const double* numbers;      ///< [group][1/length, direction x y, opening0, slip0, opening1, slip1][lane]
+  const double* displacement;
   double* force;
   ElasticLimits<double> limits;
+  /// [group][tensile strength, cohesion, tan friction][lane] where they are not the same in all; else null
+  const double* limit_rows;
   std::uint8_t* near;  ///< [group][lane], not zero near the strength
   Ahead ahead;
 };
 
 struct Kernels {
+  void (*copy)(const CopyWork&);
+  void (*move)(const MoveWork&);
   void (*rock)(const RockWork&);
   void (*elements)(const ElementWork&);
 };
@@ -69,6 +98,8 @@ const Kernels& kernels();
 
 #define CRACKLE_DECLARE_KERNELS(level) \
   namespace level {                    \
+  void copy(const CopyWork&);          \
+  void move(const MoveWork&);          \
   void rock(const RockWork&);          \
   void elements(const ElementWork&);   \
   }

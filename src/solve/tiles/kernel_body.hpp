@@ -12,8 +12,9 @@ namespace crackle::tiles {
 namespace {
 
 using V = double __attribute__((vector_size(64)));
-using V4 = double __attribute__((vector_size(32), aligned(32), may_alias));
+using V4 = double __attribute__((vector_size(32), aligned(8), may_alias));
 using V2 = double __attribute__((vector_size(16), aligned(16), may_alias));
+using Pairs4 = double __attribute__((vector_size(64), aligned(16), may_alias));  // of four nodes
 using Row = double __attribute__((vector_size(64), aligned(64), may_alias));
 using Bytes = std::uint8_t __attribute__((vector_size(8), aligned(8), may_alias));
 
@@ -22,7 +23,6 @@ using Bytes = std::uint8_t __attribute__((vector_size(8), aligned(8), may_alias)
 CRACKLE_INLINE std::uintptr_t index(std::uint16_t n) { return n; }
 CRACKLE_INLINE V row(const double* p) { return *reinterpret_cast<const Row*>(p); }
 CRACKLE_INLINE void put(double* p, V v) { *reinterpret_cast<Row*>(p) = v; }
-CRACKLE_INLINE V4 four(const double* p) { return *reinterpret_cast<const V4*>(p); }
 CRACKLE_INLINE V2 two(const double* p) { return *reinterpret_cast<const V2*>(p); }
 
 template <class Mask>
@@ -30,32 +30,16 @@ CRACKLE_INLINE void put_mask(std::uint8_t* p, Mask mask) {
   *reinterpret_cast<Bytes*>(p) = __builtin_convertvector(mask, Bytes);
 }
 
-struct Nodes {  // of eight lanes
-  V ux, uy, x, y;
-};
-
-// Eight times four numbers, turned into four times eight.
-CRACKLE_INLINE Nodes gather(const double* nodes, const std::uint16_t* n) {
-  const auto pair = [&](int k) {
-    return __builtin_shufflevector(four(nodes + 2 * index(n[k])), four(nodes + 2 * index(n[k + 4])), 0, 1, 2,
-                                   3, 4, 5, 6, 7);
-  };
-  const V r0 = pair(0), r1 = pair(1), r2 = pair(2), r3 = pair(3);
-  const V a0 = __builtin_shufflevector(r0, r1, 0, 8, 2, 10, 4, 12, 6, 14);
-  const V a1 = __builtin_shufflevector(r2, r3, 0, 8, 2, 10, 4, 12, 6, 14);
-  const V b0 = __builtin_shufflevector(r0, r1, 1, 9, 3, 11, 5, 13, 7, 15);
-  const V b1 = __builtin_shufflevector(r2, r3, 1, 9, 3, 11, 5, 13, 7, 15);
-  return {__builtin_shufflevector(a0, a1, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(b0, b1, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(a0, a1, 2, 3, 10, 11, 6, 7, 14, 15),
-          __builtin_shufflevector(b0, b1, 2, 3, 10, 11, 6, 7, 14, 15)};
-}
+CRACKLE_INLINE V4 four(const double* p) { return *reinterpret_cast<const V4*>(p); }
+CRACKLE_INLINE V pairs(const double* p) { return *reinterpret_cast<const Pairs4*>(p); }
+CRACKLE_INLINE void put_pairs(double* p, V v) { *reinterpret_cast<Pairs4*>(p) = v; }
+CRACKLE_INLINE void put_two(double* p, V2 v) { *reinterpret_cast<V2*>(p) = v; }
 
 struct Pairs {
   V x, y;
 };
 
-CRACKLE_INLINE Pairs gather_pairs(const double* p, const std::uint16_t* n) {
+CRACKLE_INLINE Pairs gather(const double* p, const std::uint16_t* n) {
   const auto both = [&](int k) {
     return __builtin_shufflevector(two(p + index(n[k])), two(p + index(n[k + 1])), 0, 1, 2, 3);
   };
@@ -76,7 +60,7 @@ struct Spread {
 };
 
 CRACKLE_INLINE void add(double* force, std::uint16_t n, V2 f) {
-  *reinterpret_cast<V2*>(force + index(n)) = two(force + index(n)) + f;
+  put_two(force + index(n), two(force + index(n)) + f);
 }
 
 class Fetch {
@@ -102,12 +86,15 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
   for (int g = 0; g < w.groups; ++g) {
     fetch.some();
     const std::uint16_t* n = w.corners + 3 * lanes * g;
-    const Nodes p0 = gather(w.nodes, n), p1 = gather(w.nodes, n + lanes), p2 = gather(w.nodes, n + 2 * lanes);
-    const V e1x = p1.x - p0.x, e1y = p1.y - p0.y, e2x = p2.x - p0.x, e2y = p2.y - p0.y;
+    const Pairs u0 = gather(w.displacement, n), u1 = gather(w.displacement, n + lanes),
+                u2 = gather(w.displacement, n + 2 * lanes);
+    const double* sides = w.sides + 4 * lanes * g;
+    const V e1x = row(sides), e1y = row(sides + lanes), e2x = row(sides + 2 * lanes),
+            e2y = row(sides + 3 * lanes);
     const V twice = e1x * e2y - e1y * e2x;
     const V inverse = 1.0 / twice;
     const triangle::Shape<V> shape{e2y * inverse, -e2x * inverse, -e1y * inverse, e1x * inverse};
-    const auto h = triangle::gradient(shape, p1.ux - p0.ux, p1.uy - p0.uy, p2.ux - p0.ux, p2.uy - p0.uy);
+    const auto h = triangle::gradient(shape, u1.x - u0.x, u1.y - u0.y, u2.x - u0.x, u2.y - u0.y);
     auto s = triangle::stress(w.stiffness, triangle::green_strain(h));
     if (w.in_situ_rows != nullptr) {
       const double* in_situ = w.in_situ_rows + 3 * lanes * g;
@@ -118,8 +105,8 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
     if constexpr (screened) put_mask(w.stressed + lanes * g, triangle::passes(w.screen, s));
     const V area = 0.5 * twice;
     if constexpr (viscous) {
-      const Pairs v0 = gather_pairs(w.velocity, n), v1 = gather_pairs(w.velocity, n + lanes),
-                  v2 = gather_pairs(w.velocity, n + 2 * lanes);
+      const Pairs v0 = gather(w.velocity, n), v1 = gather(w.velocity, n + lanes),
+                  v2 = gather(w.velocity, n + 2 * lanes);
       const auto rate = triangle::strain_rate(
           h, triangle::gradient(shape, v1.x - v0.x, v1.y - v0.y, v2.x - v0.x, v2.y - v0.y));
       double* last = w.strain_rate + 3 * lanes * g;
@@ -132,7 +119,7 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
       s = {s.xx + viscosity * rate.xx, s.yy + viscosity * rate.yy, s.xy + viscosity * rate.xy};
     }
     const auto f = triangle::forces(h, s, shape, area);
-    const V weight = w.weight * area / 3.0;
+    const V weight = (w.weight / 3.0) * area;
     const Spread f0(-f.x1 - f.x2, -f.y1 - f.y2 + weight), f1(f.x1, f.y1 + weight), f2(f.x2, f.y2 + weight);
 #pragma GCC unroll 8
     for (int l = 0; l < lanes; ++l) {
@@ -150,6 +137,37 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
 // NOLINTBEGIN(misc-definitions-in-headers)
 namespace CRACKLE_LEVEL {
 
+void copy(const CopyWork& w) {
+  for (const Run* run = w.run; run < w.end; ++run) {
+    const double* from = w.from + 2 * static_cast<std::ptrdiff_t>(run->node);
+    double* to = w.to + 2 * run->local;
+    int k = 0;
+    for (; k + 4 <= run->count; k += 4) put_pairs(to + 2 * k, pairs(from + 2 * k));
+    for (; k < run->count; ++k) put_two(to + 2 * k, two(from + 2 * k));
+  }
+}
+
+void move(const MoveWork& w) {
+  for (const Run* run = w.run; run < w.end; ++run) {
+    const auto node = static_cast<std::ptrdiff_t>(run->node);
+    const double *mobility = w.inverse_mass + node, *force = w.force + 2 * run->local;
+    double *velocity = w.velocity + 2 * node, *displacement = w.displacement + 2 * node;
+    int k = 0;
+    for (; k + 4 <= run->count; k += 4) {
+      const V4 m = w.dt * four(mobility + k);
+      const V v = pairs(velocity + 2 * k) +
+                  __builtin_shufflevector(m, m, 0, 0, 1, 1, 2, 2, 3, 3) * pairs(force + 2 * k);
+      put_pairs(velocity + 2 * k, v);
+      put_pairs(displacement + 2 * k, pairs(displacement + 2 * k) + w.dt * v);
+    }
+    for (; k < run->count; ++k) {
+      const V2 v = two(velocity + 2 * k) + (w.dt * mobility[k]) * two(force + 2 * k);
+      put_two(velocity + 2 * k, v);
+      put_two(displacement + 2 * k, two(displacement + 2 * k) + w.dt * v);
+    }
+  }
+}
+
 void rock(const RockWork& w) {
   if (w.velocity != nullptr) {
     w.stressed != nullptr ? rock_groups<true, true>(w) : rock_groups<true, false>(w);
@@ -163,23 +181,30 @@ void elements(const ElementWork& w) {
   for (int g = 0; g < w.groups; ++g) {
     fetch.some();
     const std::uint16_t* n = w.ends + 4 * lanes * g;
-    const Nodes a0 = gather(w.nodes, n), a1 = gather(w.nodes, n + lanes), b0 = gather(w.nodes, n + 2 * lanes),
-                b1 = gather(w.nodes, n + 3 * lanes);
-    const double* numbers = w.numbers + 5 * lanes * g;
-    const V dx = a1.x - a0.x, dy = a1.y - a0.y, inverse_length = row(numbers);
-    const ElasticElement<V> e{b0.ux - a0.ux,
-                              b0.uy - a0.uy,
-                              b1.ux - a1.ux,
-                              b1.uy - a1.uy,
-                              dx + 0.5 * ((a1.ux + b1.ux) - (a0.ux + b0.ux)),
-                              dy + 0.5 * ((a1.uy + b1.uy) - (a0.uy + b0.uy)),
+    const Pairs a0 = gather(w.displacement, n), a1 = gather(w.displacement, n + lanes),
+                b0 = gather(w.displacement, n + 2 * lanes), b1 = gather(w.displacement, n + 3 * lanes);
+    const double* numbers = w.numbers + 7 * lanes * g;
+    const V inverse_length = row(numbers), dx = row(numbers + lanes), dy = row(numbers + 2 * lanes);
+    const ElasticElement<V> e{b0.x - a0.x,
+                              b0.y - a0.y,
+                              b1.x - a1.x,
+                              b1.y - a1.y,
+                              dx + 0.5 * ((a1.x + b1.x) - (a0.x + b0.x)),
+                              dy + 0.5 * ((a1.y + b1.y) - (a0.y + b0.y)),
                               (dx * dx + dy * dy) * inverse_length,
                               inverse_length,
-                              row(numbers + lanes),
-                              row(numbers + 2 * lanes),
                               row(numbers + 3 * lanes),
-                              row(numbers + 4 * lanes)};
-    const auto f = elastic_forces(e, w.limits);
+                              row(numbers + 4 * lanes),
+                              row(numbers + 5 * lanes),
+                              row(numbers + 6 * lanes)};
+    ElasticForces<V> f;
+    if (w.limit_rows != nullptr) {
+      const double* limits = w.limit_rows + 3 * lanes * g;
+      f = elastic_forces(e, ElasticLimits<V>{w.limits.penalty + V{}, row(limits), row(limits + lanes),
+                                             row(limits + 2 * lanes), w.limits.curvature});
+    } else {
+      f = elastic_forces(e, w.limits);
+    }
     put_mask(w.near + lanes * g, f.beyond > 0.0);
     const Spread end0(f.x0, f.y0), end1(f.x1, f.y1);
 #pragma GCC unroll 8
