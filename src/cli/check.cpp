@@ -18,6 +18,7 @@
 #include "load.hpp"
 #include "parameters.hpp"
 #include "quasi_static_scene.hpp"
+#include "regime.hpp"
 #include "scene.hpp"
 
 namespace crackle {
@@ -92,15 +93,15 @@ void check_quasi_static(const Case& scene) {
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  const Case scene = load_case(options.case_file, options.overrides, options.seed);
-  const RegimeChoice regime = choose_regime(scene);
+  const RegimeChoice regime = choose_regime(load_case(options.case_file, options.overrides, options.seed));
+  const Case& scene = regime.scene;
   if (!regime.quasi_static) require_memory(scene);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   omp_set_num_threads(threads);
 
   fmt::print("crackle {}: {}\n", version, scene.title.empty() ? options.case_file : scene.title);
   fmt::print("\nParameters, in SI units; tension is positive\n{}", parameter_table(scene));
-  fmt::print("\n{}\n", regime.reason);
+  fmt::print("\n{}\n", fmt::join(regime.reasons, "\n"));
   std::fflush(stdout);
   if (regime.quasi_static) {
     check_quasi_static(scene);

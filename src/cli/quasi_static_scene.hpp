@@ -10,19 +10,6 @@
 
 namespace crackle {
 
-/// What the choice of a regime rests on.
-struct RegimeChoice {
-  bool quasi_static = false;
-  std::string reason;  ///< one line, with the numbers
-};
-
-/// "auto" takes the quasi-static stage where the run lasts 1000 times longer than a shear wave takes to
-/// cross the domain and there is a fracture to start from. @throws CaseError when it is asked for and
-/// cannot be
-RegimeChoice choose_regime(const Case& scene);
-
-/// A path along x on half of the domain; else one that is free, on all of it.
-bool is_straight(const Case& scene);
 /// Halves of the domain that are modelled: 1 or 2. What is computed on one stands for both.
 double modelled_halves(const Case& scene);
 

@@ -23,7 +23,7 @@
 #include "joints.hpp"
 #include "load.hpp"
 #include "progress.hpp"
-#include "quasi_static_scene.hpp"
+#include "regime.hpp"
 #include "run_quasi_static.hpp"
 #include "scene.hpp"
 #include "signals.hpp"
@@ -360,11 +360,13 @@ class Run {
 int run_in_folder(const RunOptions& options, const Case& scene, RunFolder& folder) {
   Status status(folder, scene.run.end_time);
   const RegimeChoice regime = choose_regime(scene);
-  folder.log(regime.reason);
-  if (!options.quiet) print_line(regime.reason);
+  for (const std::string& reason : regime.reasons) {
+    folder.log(reason);
+    if (!options.quiet) print_line(reason);
+  }
   try {
-    const int code = regime.quasi_static ? run_quasi_static(options, scene, folder, status)
-                                         : Run(options, scene, folder, status).go();
+    const int code = regime.quasi_static ? run_quasi_static(options, regime.scene, folder, status)
+                                         : Run(options, regime.scene, folder, status).go();
     status.finish(code == 0 ? "done" : "interrupted");
     return code;
   } catch (const std::exception& error) {

@@ -17,6 +17,7 @@
 #include "joints.hpp"
 #include "progress.hpp"
 #include "quasi_static_scene.hpp"
+#include "regime.hpp"
 #include "signals.hpp"
 #include "tally.hpp"
 
@@ -28,9 +29,6 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-// Largest principal stress, tension positive [Pa]: the least compression.
-double largest(const Sym2& s) { return 0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy); }
 
 FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, const Case& scene) {
   const double halves = modelled_halves(scene), wings = 2.0 / halves;
@@ -53,8 +51,7 @@ FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, co
   h.opening = row.opening;
   h.mean_opening = row.mean_opening;
   h.contact_fraction = row.contact_fraction;
-  h.closure_stress =
-      scene.rock.pore_pressure - (is_straight(scene) ? scene.stress.yy : largest(scene.stress));
+  h.closure_stress = scene.rock.pore_pressure + confinement(scene);
   const quasi_static::Energies& e = row.energies;
   h.work_pump = wings * e.pumped;
   h.energy_well = wings * e.well;

@@ -3,6 +3,8 @@
 // Laminar flow between the faces of a fracture (cubic law; Witherspoon et al. 1980) and the fluid's
 // density in a cell of it:
 //   q = −(w³ / 12 μ) ∂p/∂s                                   [m2/s] per metre of thickness
+//   q F = that, F = max(1, (c Re₀^¾)^{4/7}), c = 0.316/96       turbulent: Blasius' f = 0.316 Re^-¼ over
+//         96/Re between plates, with Re = 2 ρ₀ |q|/μ and Re₀ that of the laminar flow (Re = Re₀/F)
 //   ρ/ρ₀ = 1 + c_f (p − p_ref)                p ≥ p_cav
 //   ρ/ρ₀ = (1 + c_f (p_cav − p_ref)) exp((p − p_cav)/p_soft)   below: vapour, the cell empties
 // At a vertex the aperture is the mean of its cells (edges): the one of the vertex itself would choke
@@ -14,6 +16,7 @@
 // | compressibility     | 1/Pa | > 0   | c_f                                               |
 // | reference_pressure  | Pa   | any   | p_ref, where the density is ρ₀                    |
 // | cavitation_pressure | Pa   | any   | p_cav; at least 1 MPa from the initial pressure   |
+// | reference_density   | kg/m3| >= 0  | ρ₀; 0: all flow is laminar                        |
 // | smallest_aperture   | m    | > 0   | floor of w in the conductivity only               |
 #pragma once
 
@@ -35,7 +38,16 @@ struct FractureFluid {
   double cavitation_pressure = -10e6;
   double cavitation_range = 1e6;  ///< p_soft [Pa]
   double smallest_aperture = 1e-6;
+  double reference_density = 0.0;
 
+  /// A flow [m2/s] with turbulence, and its derivative by the laminar flow that the same pressures would
+  /// drive.
+  ValueSlope flow(double laminar) const {
+    const double reynolds = 2.0 * reference_density * std::abs(laminar) / viscosity;
+    const double f = std::pow(0.316 / 96.0 * std::pow(reynolds, 0.75), 4.0 / 7.0);
+    if (f <= 1.0) return {laminar, 1.0};
+    return {laminar / f, 4.0 / (7.0 * f)};
+  }
   /// w³/(12 μ) [m3/(Pa s)], by the aperture [m].
   ValueSlope conductivity(double aperture) const {
     if (aperture <= smallest_aperture)

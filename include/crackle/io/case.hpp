@@ -169,9 +169,10 @@ struct Case {
     std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken" or "damaged"
     double viscosity = 0.0;         ///< in the quasi-static regime [Pa s]
     std::optional<double> cavitation_pressure;  ///< [Pa]
-    std::string leak_off = "none";              ///< "none", "carter" or "diffusion"
-    double leak_off_coefficient = 0.0;          ///< Carter's [m/s^0.5]
-    std::string joints = "whole";               ///< which part of a joint that it reaches: "whole" or "edge"
+    std::string flow = "auto";          ///< in the quasi-static regime "uniform", "viscous", "turbulent"
+    std::string leak_off = "auto";      ///< "none", "carter", "diffusion", or by the numbers
+    double leak_off_coefficient = 0.0;  ///< Carter's [m/s^0.5]
+    std::string joints = "whole";       ///< which part of a joint that it reaches: "whole" or "edge"
     std::vector<PumpStage> pump;  ///< sorted by time, not overlapping; a stage without end ends with the run
   } fluid;
 

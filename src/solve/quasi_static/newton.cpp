@@ -225,7 +225,8 @@ class System {
   }
 
   // Flow through every vertex between wet cells: conductances of half edges in a star,
-  //   q_i = a_i κ (p̄ − p_i),  a_i = 2/h_i,  p̄ = Σ a p / Σ a,  κ of the cells' mean aperture.
+  //   q_i = a_i κ (p̄ − p_i),  a_i = 2/h_i,  p̄ = Σ a p / Σ a,  κ of the cells' mean aperture,
+  // slowed by turbulence as the largest of them is.
   void add_vertices() {
     std::vector<char> done(s_.cells.size(), 0);  // outer vertex of the cell
     for (std::size_t c = 0; c < s_.cells.size(); ++c) {
@@ -256,16 +257,25 @@ class System {
     mean /= sum;
     const auto count = static_cast<double>(around.size());
     const ValueSlope k = e_.scene.fluid.conductivity(width / count);
+    double largest = 0.0;
+    for (const Index c : around) {
+      const double a = 2.0 / e_.path.edges()[at(c)].length;
+      largest = std::max(largest, k.value * a * std::abs(mean - s_.cells[at(c)].pressure));
+    }
+    const ValueSlope flow = e_.scene.fluid.flow(largest);
+    const double share = largest > 0.0 ? flow.value / largest : 1.0;
+    // of several branches the slower ones follow the largest: their own slope is left at its share
+    const double slope = around.size() == 2 ? flow.slope : share;
     for (const Index c : around) {
       const Index row = pressure_[at(c)];
       const double a = 2.0 / e_.path.edges()[at(c)].length;
       const double drop = a * (mean - s_.cells[at(c)].pressure);
-      fluid_residual_[row] -= dt_ * k.value * drop;
+      fluid_residual_[row] -= dt_ * share * k.value * drop;
       fluid_noise_ += round_off * dt_ * k.value * a * std::abs(mean);
       for (const Index j : around) {
         const double aj = 2.0 / e_.path.edges()[at(j)].length;
-        by_pressure(row, j, -dt_ * k.value * a * (aj / sum - (j == c ? 1.0 : 0.0)));
-        by_aperture(row, j, -dt_ * k.slope * drop / count);
+        by_pressure(row, j, -dt_ * slope * k.value * a * (aj / sum - (j == c ? 1.0 : 0.0)));
+        by_aperture(row, j, -dt_ * slope * k.slope * drop / count);
       }
     }
   }
@@ -289,12 +299,13 @@ class System {
         const ValueSlope k = e_.scene.fluid.conductivity(aperture(cell));
         const ValueSlope loss = well.loss(inlet.rate, s_.time - s_.breakdown_time);
         const double drop = s_.well_pressure - s_.cells[at(cell)].pressure - loss.value;
-        fluid_residual_[row] = a * k.value * drop - inlet.rate;
+        const ValueSlope flow = e_.scene.fluid.flow(a * k.value * drop);
+        fluid_residual_[row] = flow.value - inlet.rate;
         fluid_error_ += dt_ * std::abs(fluid_residual_[row]);
-        fluid_entries_.emplace_back(row, well_, a * k.value * pressure_unit);
-        by_pressure(row, cell, -a * k.value);
-        by_rate(row, i, -a * k.value * loss.slope - 1.0);
-        by_aperture(row, cell, a * k.slope * drop);
+        fluid_entries_.emplace_back(row, well_, flow.slope * a * k.value * pressure_unit);
+        by_pressure(row, cell, -flow.slope * a * k.value);
+        by_rate(row, i, -flow.slope * a * k.value * loss.slope - 1.0);
+        by_aperture(row, cell, flow.slope * a * k.slope * drop);
       }
     }
     const double stored = well.storage * (s_.well_pressure - s_.well_before);

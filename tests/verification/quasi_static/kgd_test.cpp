@@ -136,6 +136,39 @@ TEST(Kgd, ViscosityVertex) {
   EXPECT_LT(fine.defect, 1e-8);
 }
 
+/// Leak-off rules and viscosity: ℓ = V_leak/(π C' √t), C' = 2 C_L; with ε = (12 μ Q/(E' ℓ²))^¼ opening and
+/// pressure at the well are 1.44700 ε ℓ and 0.42397 ε E' (validation D7, own solution).
+TEST(Kgd, LeakOffAndViscosity) {
+  constexpr double coefficient = 5.9e-5, viscosity = 1e-3;
+  QuasiStaticScene s = kgd(0.25, 12.0, 1e4, viscosity, 9.44e6);
+  s.leak_off = CarterLeakOff{coefficient, s.pore_pressure, 2e6};
+  QuasiStatic stage(s);
+  Found found;
+  double efficiency = 0.0;
+  stage.run(1400.0, [&](const QuasiStaticRow& row) {
+    found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
+    efficiency = row.fracture_volume / row.injected;
+    if (row.time < 700.0) return;
+    const double l = 2.0 * row.leaked / (M_PI * 2.0 * coefficient * std::sqrt(row.time));
+    const double e = std::pow(12.0 * viscosity * rate / (modulus * l * l), 0.25);
+    const double weight = row.step / row.time;
+    found.pressure.add(weight, row.well_pressure - s.pore_pressure - 9.44e6, 0.42397 * e * modulus);
+    found.opening.add(weight, row.opening, 1.447 * e * l);
+    found.length.add(weight, 0.5 * (row.broken_length + row.damaged_length), l);
+  });
+  std::printf("leak-off and viscosity: efficiency %.3f at the end, mass %.0e\n", efficiency, found.defect);
+  accept(24, "leak-off and viscosity rule (M-tilde vertex), h = 0.25 m: p, w, length; efficiency",
+         "3, 3, 8 %; printed",
+         text("%+.2f, %+.2f, %+.2f %%; %.3f", found.pressure.mean(), found.opening.mean(),
+              found.length.mean(), efficiency),
+         found.pressure.rms() <= 3.0 && found.opening.rms() <= 3.0 && std::abs(found.length.mean()) <= 8.0);
+  // Opening and length are of first order in h (5.5 and 6.2 % with edges of 0.125 m).
+  EXPECT_LT(found.pressure.rms(), 3.0);
+  EXPECT_LT(found.opening.rms(), 8.0);
+  EXPECT_LT(std::abs(found.length.mean()), 8.0);
+  EXPECT_LT(found.defect, 1e-8);
+}
+
 /// Toughness to leak-off: a(t) of Q t = 2 √π K a^{3/2}/E' + 8 C_L ∫₀ᵃ √(t − t₀(x)) dx (two wings, two
 /// faces), t₀ linear over each of the pieces of the length.
 class CarterReference {

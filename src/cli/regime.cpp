@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "regime.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crackle/core/errors.hpp"
+#include "crackle/solve/estimates.hpp"
+#include "scene.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double long_run = 1000.0;       // shear wave times from which inertia is past
+constexpr double fast_growth = 0.1;       // of the Rayleigh speed, from which it counts
+constexpr double uniform_pressure = 4.8;  // K_m
+constexpr double little_leak_off = 0.01;  // of the injected volume
+
+// What hinders a straight path along x, mirrored at both axes; empty: nothing.
+std::string asymmetry(const Case& scene) {
+  if (scene.fracture.angle != 0.0) return "fracture.angle is not 0";
+  if (scene.fracture.offset != 0.0) return "fracture.offset is not 0";
+  if (!scene.joints.empty() || !scene.joint_sets.empty()) return "there are joints";
+  if (scene.stress.xy != 0.0) return "stress.xy is not 0";
+  return {};
+}
+
+struct Numbers {
+  double modulus = 0.0, toughness = 0.0;  // E' [Pa], K [Pa m^0.5]
+  double rate = 0.0, volume = 0.0;        // largest [m2/s], and all [m2], both wings
+  double pump_time = 0.0;                 // until which it pumps [s]
+  double wave_times = 0.0, speed = 0.0, snap = 0.0, k_m = 0.0;
+};
+
+Numbers numbers_of(const Case& scene) {
+  Numbers n;
+  const PlaneStiffness stiffness = rock_stiffness(scene.rock);
+  const WaveSpeeds waves = wave_speeds(stiffness, scene.rock.density);
+  n.modulus = plane_strain_modulus(stiffness);
+  n.toughness = toughness(n.modulus, scene.rock.fracture_energy_mode1);
+  for (const Case::PumpStage& p : scene.fluid.pump) {
+    n.rate = std::max(n.rate, p.rate / scene.well.height);
+    n.volume += p.rate / scene.well.height * (std::min(p.to, scene.run.end_time) - p.from);
+    if (p.rate > 0.0) n.pump_time = std::min(p.to, scene.run.end_time);
+  }
+  const double across = std::max(scene.domain.width, scene.domain.height);
+  if (across > 0.0) n.wave_times = scene.run.end_time * waves.s / across;
+  const double notch = scene.fracture.notch;
+  if (notch > 0.0) {
+    const double rayleigh = 0.92 * waves.s;
+    n.speed =
+        n.modulus * n.rate / (3.0 * std::sqrt(std::numbers::pi) * n.toughness * std::sqrt(notch) * rayleigh);
+    n.snap = std::sqrt(scene.well.storage / scene.well.height * n.modulus / (6.0 * std::numbers::pi)) / notch;
+  }
+  if (scene.fluid.viscosity > 0.0 && n.rate > 0.0)
+    n.k_m = dimensionless_toughness(n.modulus, n.toughness, scene.fluid.viscosity, n.rate);
+  return n;
+}
+
+void check(const Case& scene) {
+  const auto require = [&](bool holds, const std::string& what) { require_quasi_static(holds, scene, what); };
+  require(scene.fracture.notch > 0.0, "it starts from a fracture: give fracture.notch");
+  require(scene.mesh.file.empty(), "meshes from a file are not yet taken");
+  require(scene.notches.empty(), "[[notches]] are not yet taken, give fracture.notch");
+  require(scene.loads.empty(), "[[loads]] are not yet taken");
+  require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&
+              !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
+          "strengths along the bedding are not yet taken");
+  require(scene.cohesive.insertion != "none",
+          "it needs cohesive elements: cohesive.insertion = \"none\" has none");
+  require(scene.fluid.viscosity > 0.0 || scene.fluid.flow == "auto" || scene.fluid.flow == "uniform",
+          "fluid.flow = \"" + scene.fluid.flow + "\" needs a fluid.viscosity above 0");
+  require(!scene.fluid.pump.empty(), "give a [[fluid.pump]]");
+  require(scene.stress_gradient == Sym2{}, "stress gradients are not yet taken");
+  if (is_straight(scene)) {
+    require(asymmetry(scene).empty(), "fracture.path = \"straight\" cannot be: " + asymmetry(scene));
+    require(scene.mesh.fine_radius > scene.fracture.notch + scene.mesh.size_fine,
+            "mesh.fine_radius is where the path of the fracture ends: it has to be above fracture.notch");
+  } else {
+    require(scene.wellbore.diameter == 0.0,
+            "a free path starts from a notch alone: wellbore.diameter has to be 0");
+  }
+}
+
+std::string choose_flow(Case& scene, const Numbers& n) {
+  const bool forced = scene.fluid.flow != "auto";
+  // Where K_m says that pressure is uniform, viscous flow makes it so at no more cost.
+  if (!forced) scene.fluid.flow = scene.fluid.viscosity > 0.0 ? "viscous" : "uniform";
+  const std::string number = n.k_m > 0.0 ? fmt::format("K_m = {:.3g}", n.k_m) : "no viscosity";
+  const char* meaning = n.k_m <= 0.0 || n.k_m >= uniform_pressure ? "toughness rules, pressure is uniform"
+                        : n.k_m < 0.70                            ? "viscosity rules, pressure falls"
+                                       : "toughness and viscosity both count, pressure falls";
+  return fmt::format("flow: {}{} ({}: {} along the fracture)", scene.fluid.flow,
+                     forced ? ", as fluid.flow says" : "", number, meaning);
+}
+
+std::string choose_leak_off(Case& scene, const Numbers& n) {
+  if (scene.fluid.leak_off != "auto")
+    return fmt::format("leak-off: {}, as fluid.leak_off says", scene.fluid.leak_off);
+  const Case::Rock& rock = scene.rock;
+  const bool porous = rock.permeability > 0.0 && rock.porosity > 0.0 && rock.pore_compressibility > 0.0 &&
+                      rock.pore_viscosity > 0.0;
+  double coefficient = scene.fluid.leak_off_coefficient;
+  if (coefficient <= 0.0 && porous) {
+    coefficient = std::max(0.0, confinement(scene)) *
+                  std::sqrt(rock.permeability * rock.porosity * rock.pore_compressibility /
+                            (std::numbers::pi * rock.pore_viscosity));
+  }
+  if (coefficient <= 0.0) {
+    scene.fluid.leak_off = "none";
+    return "leak-off: none (the rock has no permeability, and there is no fluid.leak_off_coefficient)";
+  }
+  const double length = toughness_half_length(n.modulus, n.toughness, n.volume);
+  const double share = std::min(1.0, 8.0 * coefficient * length * std::sqrt(scene.run.end_time) / n.volume);
+  const bool falls_off = scene.run.end_time > 1.5 * n.pump_time;
+  scene.fluid.leak_off = share < little_leak_off ? "none" : porous && falls_off ? "diffusion" : "carter";
+  if (scene.fluid.leak_off == "carter") scene.fluid.leak_off_coefficient = coefficient;
+  return fmt::format(
+      "leak-off: {} ({:.2g} of the injected volume would leak off, with {:.3g} m/s^0.5; the run "
+      "is {:.3g} times as long as it pumps)",
+      scene.fluid.leak_off, share, coefficient, scene.run.end_time / n.pump_time);
+}
+
+}  // namespace
+
+bool is_straight(const Case& scene) {
+  return scene.fracture.path == "straight" || (scene.fracture.path == "auto" && asymmetry(scene).empty());
+}
+
+double confinement(const Case& scene) {
+  const Sym2& s = scene.stress;
+  if (is_straight(scene)) return -s.yy;
+  return -(0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy));
+}
+
+void require_quasi_static(bool holds, const Case& scene, const std::string& what) {
+  if (!holds) throw CaseError(scene.file, 0, 0, fmt::format("run.regime = \"quasi_static\": {}", what));
+}
+
+RegimeChoice choose_regime(const Case& scene) {
+  RegimeChoice choice;
+  choice.scene = scene;
+  const Numbers n = numbers_of(scene);
+  const bool forced = scene.run.regime != "auto";
+  choice.quasi_static = forced
+                            ? scene.run.regime == "quasi_static"
+                            : n.wave_times > long_run && scene.fracture.notch > 0.0 && n.speed < fast_growth;
+  std::string numbers = fmt::format("the run lasts {:.2g} shear wave times across the domain", n.wave_times);
+  if (scene.fracture.notch > 0.0)
+    numbers += fmt::format("; the notch grows at {:.2g} of the Rayleigh speed at first", n.speed);
+  choice.reasons.push_back(
+      fmt::format("regime: {}{} ({}; quasi-static from {:.0f} on, below {}, with a notch)",
+                  choice.quasi_static ? "quasi-static" : "dynamic", forced ? ", as run.regime says" : "",
+                  numbers, long_run, fast_growth));
+  if (!choice.quasi_static) return choice;
+  check(scene);
+  choice.scene.run.regime = "quasi_static";
+  choice.scene.fracture.path = is_straight(scene) ? "straight" : "free";
+  if (n.snap > 1.0) {
+    choice.reasons.push_back(fmt::format(
+        "snap: the fluid stored in the well drives a fracture of less than {:.3g} m on by itself; only "
+        "its viscosity and well.impedance hold it",
+        n.snap * scene.fracture.notch));
+  }
+  choice.reasons.push_back(choose_leak_off(choice.scene, n));
+  choice.reasons.push_back(choose_flow(choice.scene, n));
+  return choice;
+}
+
+}  // namespace crackle

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a case leaves open is chosen by numbers that `crackle check` prints, and each choice can be forced.
+#include <gmock/gmock.h>
+
+#include "binary.hpp"
+
+namespace crackle_test {
+namespace {
+
+using testing::HasSubstr;
+
+class Regime : public CliTest {
+ protected:
+  /// What check says of a coarse KGD fracture (K_m = 7.2 by its viscosity) with settings.
+  std::string said(std::vector<std::string> settings) const {
+    std::vector<std::string> arguments{"check", write("kgd.toml", kgd)};
+    for (const std::string& setting : settings) {
+      arguments.push_back("--set");
+      arguments.push_back(setting);
+    }
+    const Outcome outcome = crackle(arguments);
+    return outcome.out;
+  }
+  static constexpr const char* kgd = R"(
+[domain]
+width = "120 m"
+height = "120 m"
+[mesh]
+size_fine = "1 m"
+fine_radius = "6 m"
+size_coarse = "20 m"
+[rock]
+density = 2500
+young_modulus = "30 GPa"
+poisson_ratio = 0.25
+tensile_strength = "10 MPa"
+cohesion = "20 MPa"
+friction_angle = "35 deg"
+fracture_energy_mode1 = 31.25
+fracture_energy_mode2 = 31.25
+pore_pressure = "10 MPa"
+[stress]
+yy = "-9 MPa"
+[fluid]
+viscosity = "1e-6 Pa s"
+[[fluid.pump]]
+rate = "1e-4 m2/s"
+to = "100 s"
+[fracture]
+notch = "2 m"
+[run]
+end_time = "100 s"
+)";
+};
+
+TEST_F(Regime, QuasiStaticWhereInertiaIsPast) {
+  EXPECT_THAT(said({}), HasSubstr("regime: quasi-static (the run lasts"));
+  EXPECT_THAT(said({"run.end_time=0.02 s", "fluid.pump.0.to=0.02 s"}), HasSubstr("regime: dynamic ("));
+  // A rate at which the notch would grow at 0.3 of the Rayleigh speed.
+  EXPECT_THAT(said({"fluid.pump.0.rate=0.3 m2/s"}), HasSubstr("regime: dynamic ("));
+  EXPECT_THAT(said({"fluid.pump.0.rate=0.3 m2/s", "run.regime=quasi_static"}),
+              HasSubstr("regime: quasi-static, as run.regime says"));
+}
+
+TEST_F(Regime, FlowByToughnessAndViscosity) {
+  EXPECT_THAT(said({}), HasSubstr("flow: viscous (K_m = 7.17: toughness rules, pressure is uniform"));
+  EXPECT_THAT(said({"fluid.viscosity=1e-3 Pa s"}),
+              HasSubstr("flow: viscous (K_m = 1.27: toughness and viscosity both"));
+  EXPECT_THAT(said({"fluid.viscosity=0"}), HasSubstr("flow: uniform (no viscosity"));
+  EXPECT_THAT(said({"fluid.flow=uniform"}), HasSubstr("flow: uniform, as fluid.flow says"));
+}
+
+TEST_F(Regime, LeakOffByWhatWouldLeak) {
+  const std::vector<std::string> porous{"rock.porosity=0.05", "rock.pore_compressibility=1.5e-8 Pa-1",
+                                        "rock.pore_viscosity=2e-5 Pa s"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), porous.begin(), porous.end());
+    return said(more);
+  };
+  EXPECT_THAT(said({}), HasSubstr("leak-off: none (the rock has no permeability"));
+  EXPECT_THAT(with({"rock.permeability=1e-26 m2"}), HasSubstr("leak-off: none ("));
+  EXPECT_THAT(with({"rock.permeability=1e-20 m2"}), HasSubstr("leak-off: carter ("));
+  EXPECT_THAT(with({"rock.permeability=1e-20 m2", "run.end_time=1e5 s"}), HasSubstr("leak-off: diffusion ("));
+  EXPECT_THAT(with({"rock.permeability=1e-20 m2", "fluid.leak_off=none"}),
+              HasSubstr("leak-off: none, as fluid.leak_off says"));
+}
+
+}  // namespace
+}  // namespace crackle_test
