@@ -137,6 +137,7 @@ RegimeChoice choose_regime(const Case& scene) {
     require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&
                 !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
             scene, "strengths along the bedding are not yet taken");
+    require(scene.layers.empty(), scene, "layers are not yet taken");
     require(scene.notches.empty(), scene, "[[notches]] are not yet taken, give fracture.notch");
     require(scene.loads.empty(), scene, "[[loads]] are not yet taken");
     require(scene.cohesive.insertion != "none", scene,
