@@ -15,6 +15,7 @@
 #include "crackle/solve/scene_warnings.hpp"
 #include "forecast.hpp"
 #include "joints.hpp"
+#include "layers.hpp"
 #include "load.hpp"
 #include "parameters.hpp"
 #include "quasi_static_scene.hpp"
@@ -46,6 +47,7 @@ void print_mesh(const Case& scene, const Mesh& with_core, const Mesh& mesh, cons
                quality.max_size_ratio);
   }
   fmt::print("  smallest angle {:.1f} degrees\n", quality.min_angle_deg);
+  if (!scene.layers.empty()) fmt::print("  {}\n", layers_text(scene, mesh));
   std::istringstream lines(network_text(network));
   for (std::string line; std::getline(lines, line);) fmt::print("  {}\n", line);
 }

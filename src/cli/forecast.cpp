@@ -120,21 +120,17 @@ Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh
 StableStep stable_step_of(const Scene& scene) {
   const bool split = scene.law && !scene.insertion.on_demand;
   State state = split ? make_split_state(scene.mesh) : make_tied_state(scene.mesh);
-  const Bulk bulk(*scene.mesh, scene.triangle_stiffness.value_or(scene.stiffness), scene.density,
-                  scene.stress, scene.damping);
-  set_mass(state, scene.density);
+  const Bulk bulk = bulk_of(scene);
+  set_mass(state, bulk);
   if (!scene.absorbing_boundary && !scene.free_boundary && scene.loads.empty())
     fix_nodes(state, EdgeKind::outer);
   if (!scene.law) return stable_step(state, bulk, nullptr);
-  if (split) insert_all(state);
-  std::vector<CohesiveMaterial> materials{scene.cohesive};
-  materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
-  for (const JointEdge& joint : scene.joints) {
-    if (!split) break;
-    const Index element = state.cohesive.of_edge[static_cast<std::size_t>(joint.edge)];
-    state.cohesive.material[static_cast<std::size_t>(element)] = joint.material;
+  const EdgeMaterials materials = edge_materials(scene);
+  if (split) {
+    insert_all(state);
+    set_materials(state, scene, materials);
   }
-  const Cohesive cohesive(scene.law, std::move(materials));
+  const Cohesive cohesive(scene.law, materials.all);
   StableStep stable = stable_step(state, bulk, &cohesive);
   if (!split) stable.limit *= scene.insertion.step;
   return stable;
@@ -157,6 +153,7 @@ WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const St
     // Without stress nothing slips in the geostatic stage, whatever the scene is.
     Scene probe = solver_scene;
     probe.stress = {};
+    for (RockMass& layer : probe.layers) layer.stress = {};
     probe.initial_pressure = 0.0;
     if (probe.fluid) probe.fluid->reference_pressure = 0.0;
     const auto start = std::chrono::steady_clock::now();

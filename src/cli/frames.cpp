@@ -14,8 +14,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 const std::vector<std::string>& field_names() {
-  static const std::vector<std::string> names{"displacement_m", "velocity_m_s", "stress_Pa", "region",
-                                              "damage"};
+  static const std::vector<std::string> names{"displacement_m", "velocity_m_s", "stress_Pa",
+                                              "region",         "layer",        "damage"};
   return names;
 }
 
@@ -60,6 +60,8 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     for (const Region r : state.mesh->regions) region.add(static_cast<double>(r));
     frame.cell_fields.push_back(std::move(region));
   }
+  const std::vector<std::uint16_t>& layers = simulation.scene().layer_of_triangle;
+  if (wanted("layer") && !layers.empty()) frame.cell_fields.push_back(layer_field(layers));
   if (wanted("damage") && !state.damage.of_triangle.empty()) {
     Field damage{"damage", 1, std::vector<float>(at(triangles))};
     for (const DamagedTriangle& d : state.damage.triangles)
@@ -67,6 +69,13 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
     frame.cell_fields.push_back(std::move(damage));
   }
   return frame;
+}
+
+Field layer_field(const std::vector<std::uint16_t>& layers) {
+  Field field{"layer", 1, {}};
+  field.values.reserve(layers.size());
+  for (const std::uint16_t layer : layers) field.add(layer);
+  return field;
 }
 
 FractureFrame fracture_frame(const Simulation& simulation) {

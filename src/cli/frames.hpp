@@ -18,4 +18,7 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
 /// Yielding and broken cohesive elements of a simulation.
 FractureFrame fracture_frame(const Simulation& simulation);
 
+/// The layer of every triangle, 0: none.
+Field layer_field(const std::vector<std::uint16_t>& layers);
+
 }  // namespace crackle

@@ -8,6 +8,7 @@
 
 #include "crackle/core/errors.hpp"
 #include "crackle/io/joints_csv.hpp"
+#include "layers.hpp"
 
 namespace crackle {
 namespace {
@@ -65,12 +66,18 @@ std::vector<Case::Notch> notches_of(const Case& scene) {
   return notches;
 }
 
+std::string interface_name(std::size_t layer) { return fmt::format("layer{}", layer + 1); }
+
 /// Of a set of the mesh. In a mesh that was made from the case they are numbered as add_joints() has them, in
 /// one from a file they go by name.
 const Case::JointProperties& properties_of(const Case& scene, const Mesh& mesh, std::size_t set) {
   if (scene.mesh.file.empty()) {
     if (set < scene.joints.size()) return scene.joints[set];
-    return scene.joint_sets[set - scene.joints.size()];
+    if (set < first_interface(scene)) return scene.joint_sets[set - scene.joints.size()];
+    return scene.layers[set - first_interface(scene)].interface;
+  }
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    if (mesh.joint_sets[set] == interface_name(i)) return scene.layers[i].interface;
   }
   for (const std::string& name : {mesh.joint_sets[set], std::string()}) {
     for (const Case::JointSet& row : scene.joint_sets) {
@@ -100,12 +107,15 @@ void add_joints(const Case& scene, MeshRecipe& recipe) {
                          : read_joints_csv(set.file, number);
     recipe.joints.insert(recipe.joints.end(), joints.begin(), joints.end());
   }
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) recipe.joint_sets.push_back(interface_name(i));
   int number = 0;
   for (const Case::Notch& notch : notches_of(scene)) {
     const Index set = static_cast<Index>(recipe.joint_sets.size());
     recipe.joints.push_back({{notch.x1, notch.y1}, {notch.x2, notch.y2}, set});
     recipe.joint_sets.push_back(fmt::format("notch{}", ++number));
   }
+  // Last: where lines overlap, the first counts.
+  add_interfaces(scene, recipe);
 }
 
 Vec2 notch_direction(const Case& scene) {
@@ -122,6 +132,8 @@ void set_joints(const Case& scene, Scene& solver_scene) {
     const Case::JointProperties& joint = properties_of(scene, mesh, set);
     bonded.push_back(joint.law == "bonded");
     CohesiveMaterial material = solver_scene.cohesive;
+    solver_scene.joint_materials.push_back(material);
+    if (joint.law == "perfect") continue;  // no edge is of it
     material.penalty = *joint.normal_penalty;
     material.tangential_penalty = *joint.tangential_penalty;
     material.tan_residual = std::tan(*joint.residual_friction_angle);
@@ -133,7 +145,7 @@ void set_joints(const Case& scene, Scene& solver_scene) {
       material.fracture_energy_mode1 = *joint.fracture_energy_mode1;
       material.fracture_energy_mode2 = *joint.fracture_energy_mode2;
     }
-    solver_scene.joint_materials.push_back(material);
+    solver_scene.joint_materials.back() = material;
   }
   for (Index e = 0; e < mesh.edge_count(); ++e) {
     const Edge& edge = mesh.edges[static_cast<std::size_t>(e)];

@@ -11,7 +11,9 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/io/output.hpp"
 #include "forecast.hpp"
+#include "frames.hpp"
 #include "joints.hpp"
+#include "layers.hpp"
 #include "load.hpp"
 #include "scene.hpp"
 
@@ -20,14 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The mesh as a frame of fields, its regions marked.
-FieldFrame frame_of(const Mesh& mesh) {
+/// The mesh as a frame of fields, its regions and layers marked.
+FieldFrame frame_of(const Case& scene, const Mesh& mesh) {
   FieldFrame frame;
   frame.points = mesh.vertices;
   frame.triangles = mesh.triangles;
   Field region{"region", 1, {}};
   for (const Region r : mesh.regions) region.add(static_cast<double>(r));
   frame.cell_fields.push_back(std::move(region));
+  if (!scene.layers.empty()) frame.cell_fields.push_back(layer_field(layers_of(scene, mesh)));
   return frame;
 }
 
@@ -51,7 +54,7 @@ int mesh_command(const MeshOptions& options) {
   if (ending == ".msh") {
     write_gmsh(mesh, options.output);
   } else {
-    write_vtu(options.output, frame_of(mesh));
+    write_vtu(options.output, frame_of(scene, mesh));
     if (jointed) write_vtu(joints_file, joint_frame(mesh));
   }
   const MeshRecipe recipe = mesh_recipe(scene);
@@ -67,6 +70,7 @@ int mesh_command(const MeshOptions& options) {
                quality.max_size_ratio);
   }
   fmt::print("\n");
+  if (!scene.layers.empty()) fmt::print("{}\n", layers_text(scene, mesh));
   if (network.joints > 0) fmt::print("{}\n", network_text(network));
   if (jointed && ending == ".vtu") fmt::print("{}: the joints' edges\n", joints_file);
   return 0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/estimates.hpp"
 #include "joints.hpp"
+#include "layers.hpp"
 
 namespace crackle {
 namespace {
@@ -26,19 +28,52 @@ Bedding bedding_of(const Case::Rock& rock) {
           rock.fracture_energy_mode2_bedding.value_or(rock.fracture_energy_mode2)};
 }
 
-void set_damage(const Case& scene, Scene& s) {
-  s.damage.law = find_softening(scene.damage.law);
-  DamageMaterial m;
-  m.tensile_strength = scene.rock.tensile_strength;
-  m.cohesion = scene.rock.cohesion;
-  m.tan_friction = std::tan(scene.rock.friction_angle);
+CohesiveMaterial cohesive_material(const Case& scene, const Case::Rock& rock, double penalty) {
+  CohesiveMaterial m;
+  m.tensile_strength = rock.tensile_strength;
+  m.cohesion = rock.cohesion;
+  m.tan_friction = std::tan(rock.friction_angle);
   m.tan_residual = std::tan(scene.contact.friction_angle);
-  m.fracture_energy_mode1 = scene.rock.fracture_energy_mode1;
-  m.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
+  m.fracture_energy_mode1 = rock.fracture_energy_mode1;
+  m.fracture_energy_mode2 = rock.fracture_energy_mode2;
+  m.bedding = bedding_of(rock);
+  m.penalty = penalty;
+  m.tangential_penalty = scene.contact.tangential_penalty;
+  m.mixed_mode_exponent = scene.cohesive.mixed_mode_exponent;
+  m.calibration = scene.cohesive.calibration == "y_geo" ? Calibration::y_geo : Calibration::exact;
+  return m;
+}
+
+DamageMaterial damage_material(const Case& scene, const Case::Rock& rock) {
+  DamageMaterial m;
+  m.tensile_strength = rock.tensile_strength;
+  m.cohesion = rock.cohesion;
+  m.tan_friction = std::tan(rock.friction_angle);
+  m.tan_residual = std::tan(scene.contact.friction_angle);
+  m.fracture_energy_mode1 = rock.fracture_energy_mode1;
+  m.fracture_energy_mode2 = rock.fracture_energy_mode2;
   m.apply(scene.damage.preset == "faithful" ? DamagePreset::faithful : DamagePreset::recommended);
   m.initiation = *find_initiation(scene.damage.initiation);
-  m.bedding = bedding_of(scene.rock);
-  s.damage.materials = {m};
+  m.bedding = bedding_of(rock);
+  return m;
+}
+
+void set_damage(const Case& scene, Scene& s) {
+  s.damage.law = find_softening(scene.damage.law);
+  s.damage.materials = {damage_material(scene, scene.rock)};
+  for (const Case::Layer& layer : scene.layers)
+    s.damage.materials.push_back(damage_material(scene, layer.rock));
+  s.damage.of_triangle = s.layer_of_triangle;
+}
+
+bool may_part(const Case& scene) {
+  return std::ranges::any_of(scene.layers,
+                             [](const Case::Layer& layer) { return layer.interface.law != "perfect"; });
+}
+
+void compensate(RockMass& rock, const Mesh& mesh) {
+  const double shape = measure_mesh(mesh).sum_length2_over_area;
+  rock.triangle_stiffness = compensated(rock.stiffness, artificial_compliance(rock.cohesive.penalty, shape));
 }
 
 void set_loads(const Case& scene, Scene& s) {
@@ -77,6 +112,16 @@ PlaneStiffness rock_stiffness(const Case::Rock& rock) {
                                               *rock.shear_modulus_normal, rock.bedding_angle});
 }
 
+RockMass rock_mass(const Case& scene, const Case::Layer& layer) {
+  RockMass rock;
+  rock.stiffness = rock_stiffness(layer.rock);
+  rock.density = layer.rock.density;
+  rock.stress = layer.stress;
+  rock.stress_gradient = layer.stress_gradient;
+  rock.cohesive = cohesive_material(scene, layer.rock, layer.penalty);
+  return rock;
+}
+
 MeshRecipe mesh_recipe(const Case& scene) {
   MeshRecipe recipe;
   recipe.generator = scene.mesh.generator;
@@ -101,6 +146,7 @@ Mesh make_mesh(const Case& scene, NetworkReport* network) {
   MeshRecipe recipe = mesh_recipe(scene);
   add_joints(scene, recipe);
   Mesh mesh = generate_mesh(recipe, network);
+  weld_perfect_interfaces(scene, mesh);
   require_quality(mesh, measure_quality(mesh, &recipe), smallest_angle_deg);
   return mesh;
 }
@@ -115,22 +161,13 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
   s.damping = {scene.damping.viscosity.value_or(0.0), scene.damping.ratio.value_or(0.0)};
   const bool damaged = scene.cohesive.insertion == "none";
   const bool has_lines = !scene.joints.empty() || !scene.joint_sets.empty() || !scene.notches.empty() ||
-                         scene.fracture.notch > 0.0;
+                         scene.fracture.notch > 0.0 || may_part(scene);
   if (!damaged || has_lines) s.law = find_law(scene.cohesive.law);
-  s.cohesive.tensile_strength = scene.rock.tensile_strength;
-  s.cohesive.cohesion = scene.rock.cohesion;
-  s.cohesive.tan_friction = std::tan(scene.rock.friction_angle);
-  s.cohesive.tan_residual = std::tan(scene.contact.friction_angle);
-  s.cohesive.fracture_energy_mode1 = scene.rock.fracture_energy_mode1;
-  s.cohesive.fracture_energy_mode2 = scene.rock.fracture_energy_mode2;
-  s.cohesive.bedding = bedding_of(scene.rock);
-  s.cohesive.penalty = scene.cohesive.penalty;
-  s.cohesive.tangential_penalty = scene.contact.tangential_penalty;
-  s.cohesive.mixed_mode_exponent = scene.cohesive.mixed_mode_exponent;
-  s.cohesive.calibration = scene.cohesive.calibration == "y_geo" ? Calibration::y_geo : Calibration::exact;
+  s.cohesive = cohesive_material(scene, scene.rock, scene.cohesive.penalty);
+  set_layers(scene, s);
   if (scene.cohesive.compliance == "compensated" && s.mesh) {
-    const double shape = measure_mesh(*s.mesh).sum_length2_over_area;
-    s.triangle_stiffness = compensated(s.stiffness, artificial_compliance(s.cohesive.penalty, shape));
+    compensate(s, *s.mesh);
+    for (RockMass& layer : s.layers) compensate(layer, *s.mesh);
   }
   if (damaged) set_damage(scene, s);
   s.insertion.on_demand = scene.cohesive.insertion == "on_demand" || (damaged && has_lines);

@@ -20,4 +20,7 @@ PlaneStiffness rock_stiffness(const Case::Rock& rock);
 /// What the solver needs of a case, on an excavated mesh.
 Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated);
 
+/// Rock and in-situ stress of a layer.
+RockMass rock_mass(const Case& scene, const Case::Layer& layer);
+
 }  // namespace crackle

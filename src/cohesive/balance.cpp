@@ -234,7 +234,7 @@ std::vector<Index> Cohesive::balance(State& state, std::span<const Vec2> corner_
 }
 
 std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges,
-                                    std::span<const double> penalty, std::uint16_t number,
+                                    std::span<const double> penalty, std::span<const std::uint16_t> number,
                                     const CornerForce& rock, const CornerForce& load) const {
   CohesiveElements& c = state.cohesive;
   const Index first_new = c.count();

@@ -199,18 +199,19 @@ bool has_bedding_strength(const Case::Rock& rock) {
          rock.fracture_energy_mode2_bedding;
 }
 
-void finish_bedding(Case::Rock& rock, const GivenKeys& given) {
+void finish_bedding(Case::Rock& rock, const GivenKeys& given, const std::string& table) {
+  const auto key = [&](const char* name) { return table + "." + name; };
   if (rock.bedding_exponent != 1.0 && !has_bedding_strength(rock)) {
-    fail(given.place("rock.bedding_exponent"),
-         "rock.bedding_exponent has nothing to interpolate: give rock.tensile_strength_bedding or another "
+    fail(given.place(key("bedding_exponent")),
+         "bedding_exponent has nothing to interpolate: give tensile_strength_bedding or another "
          "value "
          "along the bedding");
   }
   if (!rock.young_modulus_normal && !rock.poisson_ratio_normal && !rock.shear_modulus_normal) {
     if (rock.bedding_angle != 0.0 && !has_bedding_strength(rock)) {
-      fail(given.place("rock.bedding_angle"),
-           "rock.bedding_angle turns nothing: the rock is the same in all directions until it has a "
-           "rock.young_modulus_normal or another modulus across the bedding, or a strength along it");
+      fail(given.place(key("bedding_angle")),
+           "bedding_angle turns nothing: the rock is the same in all directions until it has a "
+           "young_modulus_normal or another modulus across the bedding, or a strength along it");
     }
     return;
   }
@@ -221,8 +222,8 @@ void finish_bedding(Case::Rock& rock, const GivenKeys& given) {
   if (!rock.shear_modulus_normal) rock.shear_modulus_normal = 1.0 / (1.0 / along + (1.0 + 2.0 * nu) / across);
   const double left = 1.0 - rock.poisson_ratio - 2.0 * nu * nu * along / across;
   if (left <= 0.0) {
-    fail(given.latest({"rock.poisson_ratio", "rock.poisson_ratio_normal", "rock.young_modulus",
-                       "rock.young_modulus_normal"}),
+    fail(given.latest({key("poisson_ratio_normal"), key("young_modulus_normal"), key("poisson_ratio"),
+                       key("young_modulus")}),
          fmt::format("straining such bedded rock would release energy: 1 - poisson_ratio - 2 "
                      "poisson_ratio_normal^2 young_modulus/young_modulus_normal = {:g} has to be above 0",
                      left));
@@ -325,17 +326,25 @@ void finish_case(ReadCase& read) {
   finish_run(scene, given);
   finish_pump(scene, given);
   finish_damping(scene.damping, given);
-  finish_bedding(scene.rock, given);
+  inherit_rock(read);
+  finish_bedding(scene.rock, given, "rock");
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    finish_bedding(scene.layers[i].rock, given, fmt::format("layers.{}", i));
   finish_preset(scene.cohesive, given);
   check_compliance(scene, given);
   finish_damage(scene, given);
   check_leak_off(scene, given);
+  for (Case::Layer& layer : scene.layers) {
+    if (layer.penalty == 0.0)
+      layer.penalty = scene.cohesive.penalty > 0.0 ? scene.cohesive.penalty : 20.0 * layer.rock.young_modulus;
+  }
   if (scene.cohesive.penalty == 0.0) scene.cohesive.penalty = 20.0 * scene.rock.young_modulus;
   if (scene.contact.normal_penalty == 0.0) scene.contact.normal_penalty = scene.cohesive.penalty;
   if (scene.contact.tangential_penalty == 0.0) scene.contact.tangential_penalty = scene.cohesive.penalty;
   if (!given.has("contact.friction_angle")) scene.contact.friction_angle = scene.rock.friction_angle;
   if (!given.has("fluid.initial_pressure")) scene.fluid.initial_pressure = scene.rock.pore_pressure;
   finish_joints(read);
+  finish_layers(read);
 }
 
 }  // namespace crackle

@@ -7,54 +7,12 @@
 #include <initializer_list>
 #include <set>
 
-#include "case_read.hpp"
+#include "case_row.hpp"
 
 namespace crackle {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One row of [[joints]] or [[joint_sets]].
-class Row {
- public:
-  Row(const GivenKeys& given, std::string_view table, std::size_t row)
-      : given_(given), table_(table), path_(fmt::format("{}.{}", table, row)) {}
-
-  bool has(std::string_view key) const { return given_.has(path(key)); }
-  std::string path(std::string_view key) const { return fmt::format("{}.{}", path_, key); }
-  Place place(std::string_view key) const { return given_.place(path(key)); }
-
-  /// Without these keys the row has no meaning.
-  void need(std::initializer_list<std::string_view> keys, std::string_view why) const {
-    for (const std::string_view key : keys) {
-      if (!has(key)) fail(place(key), fmt::format("missing key {} in [[{}]]: {}", key, table_, why));
-    }
-  }
-  /// These keys would be ignored.
-  void refuse(std::initializer_list<std::string_view> keys, std::string_view why) const {
-    for (const std::string_view key : keys) {
-      if (has(key)) fail(place(key), fmt::format("{} has no meaning here: {}", path(key), why));
-    }
-  }
-
- private:
-  const GivenKeys& given_;
-  std::string_view table_;
-  std::string path_;
-};
-
-void finish_properties(Case::JointProperties& joint, const Row& row, const Case& scene) {
-  const std::initializer_list<std::string_view> strengths{"tensile_strength", "cohesion", "friction_angle",
-                                                          "fracture_energy_mode1", "fracture_energy_mode2"};
-  if (joint.law == "bonded") {
-    row.need(strengths, "a bonded joint breaks by values of its own");
-  } else {
-    row.refuse(strengths, "a frictional joint has none; write law = \"bonded\", or residual_friction_angle");
-  }
-  if (!joint.residual_friction_angle) joint.residual_friction_angle = scene.contact.friction_angle;
-  if (!joint.normal_penalty) joint.normal_penalty = scene.cohesive.penalty;
-  if (!joint.tangential_penalty) joint.tangential_penalty = scene.contact.tangential_penalty;
-}
 
 void finish_lengths(Case::JointSet& set, const Row& row) {
   if (set.length_distribution.empty()) set.length_distribution = "constant";
@@ -153,6 +111,19 @@ void finish_source(Case::JointSet& set, const Row& row, std::size_t number, cons
 }
 
 }  // namespace
+
+void finish_properties(Case::JointProperties& joint, const Row& row, const Case& scene) {
+  const std::initializer_list<std::string_view> strengths{"tensile_strength", "cohesion", "friction_angle",
+                                                          "fracture_energy_mode1", "fracture_energy_mode2"};
+  if (joint.law == "bonded") {
+    row.need(strengths, "a bonded joint breaks by values of its own");
+  } else {
+    row.refuse(strengths, "a frictional joint has none; write law = \"bonded\", or residual_friction_angle");
+  }
+  if (!joint.residual_friction_angle) joint.residual_friction_angle = scene.contact.friction_angle;
+  if (!joint.normal_penalty) joint.normal_penalty = scene.cohesive.penalty;
+  if (!joint.tangential_penalty) joint.tangential_penalty = scene.contact.tangential_penalty;
+}
 
 void finish_joints(ReadCase& read) {
   Case& scene = read.scene;

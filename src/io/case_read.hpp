@@ -41,6 +41,11 @@ void finish_case(ReadCase& read);
 /// The part of finish_case() on [[joints]] and [[joint_sets]], after all other defaults.
 void finish_joints(ReadCase& read);
 
+/// Gives every layer what it does not say itself, before defaults are filled in.
+void inherit_rock(ReadCase& read);
+/// The part of finish_case() on [[layers]], after all other defaults.
+void finish_layers(ReadCase& read);
+
 /// A path in a case file, made absolute: relative to that file, one given to --set to the working folder.
 std::string resolved_path(const std::string& path, const Place& place);
 

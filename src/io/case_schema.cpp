@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <deque>
 #include <numbers>
 
 #include "case_slot.hpp"
@@ -109,23 +110,88 @@ Slot of_set() {
   return slot<&C::joint_sets, member>();
 }
 
-/// What a list of joints and one of sets both have.
-template <auto rows>
-std::vector<KeySpec> with_joint_properties(std::vector<KeySpec> keys) {
+/// What joints, sets of them and interfaces of layers have.
+template <auto... path>
+std::vector<KeySpec> joint_properties() {
   // clang-format off
-  const std::vector<KeySpec> properties{
-      choice("law", slot<rows, &JP::law>(), {"frictional", "bonded"}, "\"frictional\": closed, slides by friction; \"bonded\": breaks like rock"),
-      number("residual_friction_angle", slot<rows, &JP::residual_friction_angle>(), angle, friction, Need::never, "friction angle of sliding faces", "contact.friction_angle"),
-      number("normal_penalty", slot<rows, &JP::normal_penalty>(), pressure, positive, Need::never, "stiffness times edge length of closed joints", "cohesive.penalty"),
-      number("tangential_penalty", slot<rows, &JP::tangential_penalty>(), pressure, positive, Need::never, "of faces that stick", "contact.tangential_penalty"),
-      number("tensile_strength", slot<rows, &JP::tensile_strength>(), pressure, strength, Need::never, "of a bonded joint, which needs it", "none"),
-      number("cohesion", slot<rows, &JP::cohesion>(), pressure, strength, Need::never, "of a bonded joint, which needs it", "none"),
-      number("friction_angle", slot<rows, &JP::friction_angle>(), angle, friction, Need::never, "internal, of a bonded joint, which needs it", "none"),
-      number("fracture_energy_mode1", slot<rows, &JP::fracture_energy_mode1>(), energy_per_area, breaking, Need::never, "of a bonded joint, which needs it", "none"),
-      number("fracture_energy_mode2", slot<rows, &JP::fracture_energy_mode2>(), energy_per_area, breaking, Need::never, "of a bonded joint, which needs it", "none"),
+  return {
+      choice("law", slot<path..., &JP::law>(), {"frictional", "bonded"}, "\"frictional\": closed, slides by friction; \"bonded\": breaks like rock"),
+      number("residual_friction_angle", slot<path..., &JP::residual_friction_angle>(), angle, friction, Need::never, "friction angle of sliding faces", "contact.friction_angle"),
+      number("normal_penalty", slot<path..., &JP::normal_penalty>(), pressure, positive, Need::never, "stiffness times edge length of closed joints", "cohesive.penalty"),
+      number("tangential_penalty", slot<path..., &JP::tangential_penalty>(), pressure, positive, Need::never, "of faces that stick", "contact.tangential_penalty"),
+      number("tensile_strength", slot<path..., &JP::tensile_strength>(), pressure, strength, Need::never, "of a bonded joint, which needs it", "none"),
+      number("cohesion", slot<path..., &JP::cohesion>(), pressure, strength, Need::never, "of a bonded joint, which needs it", "none"),
+      number("friction_angle", slot<path..., &JP::friction_angle>(), angle, friction, Need::never, "internal, of a bonded joint, which needs it", "none"),
+      number("fracture_energy_mode1", slot<path..., &JP::fracture_energy_mode1>(), energy_per_area, breaking, Need::never, "of a bonded joint, which needs it", "none"),
+      number("fracture_energy_mode2", slot<path..., &JP::fracture_energy_mode2>(), energy_per_area, breaking, Need::never, "of a bonded joint, which needs it", "none"),
   };
   // clang-format on
-  keys.insert(keys.end(), properties.begin(), properties.end());
+}
+
+std::vector<KeySpec> with(std::vector<KeySpec> keys, const std::vector<KeySpec>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+/// What the rock and each layer has.
+template <auto... path>
+std::vector<KeySpec> rock_properties(Need need) {
+  using R = C::Rock;
+  // clang-format off
+  return {
+      number("density", slot<path..., &R::density>(), density, positive, need, "mass density of the rock"),
+      number("young_modulus", slot<path..., &R::young_modulus>(), pressure, stiffness, need, "Young's modulus"),
+      number("poisson_ratio", slot<path..., &R::poisson_ratio>(), plain, poisson, need, "Poisson's ratio"),
+      number("tensile_strength", slot<path..., &R::tensile_strength>(), pressure, strength, need, "tensile strength"),
+      number("cohesion", slot<path..., &R::cohesion>(), pressure, strength, need, "shear strength without normal stress"),
+      number("friction_angle", slot<path..., &R::friction_angle>(), angle, friction, need, "internal friction angle"),
+      number("fracture_energy_mode1", slot<path..., &R::fracture_energy_mode1>(), energy_per_area, breaking, need, "fracture energy in opening"),
+      number("fracture_energy_mode2", slot<path..., &R::fracture_energy_mode2>(), energy_per_area, breaking, need, "fracture energy in sliding"),
+      number("young_modulus_normal", slot<path..., &R::young_modulus_normal>(), pressure, stiffness, Need::never, "across the bedding of bedded rock; young_modulus is along it", "none: not bedded"),
+      number("poisson_ratio_normal", slot<path..., &R::poisson_ratio_normal>(), plain, poisson, Need::never, "strain along the bedding under stress across it", "rock.poisson_ratio, in bedded rock"),
+      number("shear_modulus_normal", slot<path..., &R::shear_modulus_normal>(), pressure, stiffness, Need::never, "shear modulus across the bedding", "that of Saint-Venant, in bedded rock"),
+      number("bedding_angle", slot<path..., &R::bedding_angle>(), angle, any, Need::never, "from x to the bedding, anticlockwise"),
+      number("tensile_strength_bedding", slot<path..., &R::tensile_strength_bedding>(), pressure, strength, Need::never, "of planes along the bedding; between, v(a) = v + (v_bedding - v) cos^2m(a), a from the bedding's normal to the plane's", "rock.tensile_strength"),
+      number("cohesion_bedding", slot<path..., &R::cohesion_bedding>(), pressure, strength, Need::never, "of planes along the bedding", "rock.cohesion"),
+      number("fracture_energy_mode1_bedding", slot<path..., &R::fracture_energy_mode1_bedding>(), energy_per_area, breaking, Need::never, "of planes along the bedding", "rock.fracture_energy_mode1"),
+      number("fracture_energy_mode2_bedding", slot<path..., &R::fracture_energy_mode2_bedding>(), energy_per_area, breaking, Need::never, "of planes along the bedding", "rock.fracture_energy_mode2"),
+      number("bedding_exponent", slot<path..., &R::bedding_exponent>(), plain, positive, Need::never, "m: with 1 strength is linear in cos^2 of the angle (Pietruszczak and Mroz 2001), with more the rock is weak only nearer to the bedding"),
+  };
+  // clang-format on
+}
+
+/// A layer: where it lies, its rock, its stress, its interfaces.
+std::vector<KeySpec> layer_keys() {
+  using L = C::Layer;
+  // clang-format off
+  std::vector<KeySpec> keys{
+      number("bottom", slot<&C::layers, &L::bottom>(), length, any, Need::never, "its lower interface: distance from the origin along the layer's normal, y where it is level", "down to the boundary"),
+      number("top", slot<&C::layers, &L::top>(), length, any, Need::never, "its upper interface", "up to the boundary"),
+      number("dip", slot<&C::layers, &L::dip>(), angle, any, Need::never, "of both interfaces, from x anticlockwise; 90 deg: an upright layer"),
+      number("stress_xx", slot<&C::layers, &L::stress, &Sym2::xx>(), pressure, any, Need::never, "far-field effective stress in the layer", "stress.xx"),
+      number("stress_yy", slot<&C::layers, &L::stress, &Sym2::yy>(), pressure, any, Need::never, "in the layer", "stress.yy"),
+      number("stress_xy", slot<&C::layers, &L::stress, &Sym2::xy>(), pressure, any, Need::never, "in the layer", "stress.xy"),
+      number("stress_gradient_xx", slot<&C::layers, &L::stress_gradient, &Sym2::xx>(), pressure_gradient, any, Need::never, "in the layer", "stress.gradient_xx"),
+      number("stress_gradient_yy", slot<&C::layers, &L::stress_gradient, &Sym2::yy>(), pressure_gradient, any, Need::never, "in the layer", "stress.gradient_yy"),
+      number("penalty", slot<&C::layers, &L::penalty>(), pressure, not_negative, Need::never, "of its cohesive elements", "cohesive.penalty if given, else 20 young_modulus"),
+  };
+  // clang-format on
+  for (KeySpec key : rock_properties<&C::layers, &L::rock>(Need::never)) {
+    key.fallback = "that of [rock]";
+    keys.push_back(key);
+  }
+  static std::deque<std::string> names;  // that keys point to
+  for (KeySpec key : joint_properties<&C::layers, &L::interface>()) {
+    const bool law = key.key == "law";
+    key.key = names.emplace_back(law ? "interface" : "interface_" + std::string(key.key));
+    if (law) {
+      key.choices = {"perfect", "bonded", "frictional"};
+      key.meaning =
+          "how its interfaces bear: \"perfect\": as one, \"bonded\": with a strength, \"frictional\"; the "
+          "following keys are of the last two";
+    }
+    keys.push_back(key);
+  }
   return keys;
 }
 
@@ -152,30 +218,14 @@ std::vector<TableSpec> make_tables() {
       count("seed", slot<&C::mesh, &C::Mesh::seed>(), "of the random numbers of the mesh"),
       text("file", slot<&C::mesh, &C::Mesh::file>(), "a .msh file instead of a generator, relative to the file that names it", "none"),
     }},
-    {"rock", {
-      number("density", slot<&C::rock, &C::Rock::density>(), density, positive, Need::always, "mass density of the rock"),
-      number("young_modulus", slot<&C::rock, &C::Rock::young_modulus>(), pressure, stiffness, Need::always, "Young's modulus"),
-      number("poisson_ratio", slot<&C::rock, &C::Rock::poisson_ratio>(), plain, poisson, Need::always, "Poisson's ratio"),
-      number("tensile_strength", slot<&C::rock, &C::Rock::tensile_strength>(), pressure, strength, Need::always, "tensile strength"),
-      number("cohesion", slot<&C::rock, &C::Rock::cohesion>(), pressure, strength, Need::always, "shear strength without normal stress"),
-      number("friction_angle", slot<&C::rock, &C::Rock::friction_angle>(), angle, friction, Need::always, "internal friction angle"),
-      number("fracture_energy_mode1", slot<&C::rock, &C::Rock::fracture_energy_mode1>(), energy_per_area, breaking, Need::always, "fracture energy in opening"),
-      number("fracture_energy_mode2", slot<&C::rock, &C::Rock::fracture_energy_mode2>(), energy_per_area, breaking, Need::always, "fracture energy in sliding"),
+    {"rock", with(rock_properties<&C::rock>(Need::always), {
       number("pore_pressure", slot<&C::rock, &C::Rock::pore_pressure>(), pressure, any, Need::never, "of the formation; given, all pressures of the fluid are total ones, else above it"),
       number("permeability", slot<&C::rock, &C::Rock::permeability>(), permeability, not_negative, Need::never, "for fluid.leak_off = \"diffusion\""),
       number("porosity", slot<&C::rock, &C::Rock::porosity>(), plain, Range{0.0, 1.0, true, false, "from 0 to below 1"}, Need::never, "for fluid.leak_off = \"diffusion\""),
       number("pore_compressibility", slot<&C::rock, &C::Rock::pore_compressibility>(), compressibility, not_negative, Need::never, "of pores and what fills them, for diffusion"),
       number("pore_viscosity", slot<&C::rock, &C::Rock::pore_viscosity>(), viscosity, not_negative, Need::never, "of the fluid in the pores, for diffusion"),
-      number("young_modulus_normal", slot<&C::rock, &C::Rock::young_modulus_normal>(), pressure, stiffness, Need::never, "across the bedding of bedded rock; young_modulus is along it", "none: not bedded"),
-      number("poisson_ratio_normal", slot<&C::rock, &C::Rock::poisson_ratio_normal>(), plain, poisson, Need::never, "strain along the bedding under stress across it", "rock.poisson_ratio, in bedded rock"),
-      number("shear_modulus_normal", slot<&C::rock, &C::Rock::shear_modulus_normal>(), pressure, stiffness, Need::never, "shear modulus across the bedding", "that of Saint-Venant, in bedded rock"),
-      number("bedding_angle", slot<&C::rock, &C::Rock::bedding_angle>(), angle, any, Need::never, "from x to the bedding, anticlockwise"),
-      number("tensile_strength_bedding", slot<&C::rock, &C::Rock::tensile_strength_bedding>(), pressure, strength, Need::never, "of planes along the bedding; between, v(a) = v + (v_bedding - v) cos^2m(a), a from the bedding's normal to the plane's", "rock.tensile_strength"),
-      number("cohesion_bedding", slot<&C::rock, &C::Rock::cohesion_bedding>(), pressure, strength, Need::never, "of planes along the bedding", "rock.cohesion"),
-      number("fracture_energy_mode1_bedding", slot<&C::rock, &C::Rock::fracture_energy_mode1_bedding>(), energy_per_area, breaking, Need::never, "of planes along the bedding", "rock.fracture_energy_mode1"),
-      number("fracture_energy_mode2_bedding", slot<&C::rock, &C::Rock::fracture_energy_mode2_bedding>(), energy_per_area, breaking, Need::never, "of planes along the bedding", "rock.fracture_energy_mode2"),
-      number("bedding_exponent", slot<&C::rock, &C::Rock::bedding_exponent>(), plain, positive, Need::never, "m: with 1 strength is linear in cos^2 of the angle (Pietruszczak and Mroz 2001), with more the rock is weak only nearer to the bedding"),
-    }},
+    })},
+    rows_of<&C::layers>("layers", layer_keys()),
     {"cohesive", {
       choice("preset", slot<&C::cohesive, &C::Cohesive::preset>(), {"accurate", "y_geo"}, "defaults of law, calibration and insertion; \"y_geo\": evans_marathe, y_geo, all edges, as in Y-Geo"),
       choice("law", slot<&C::cohesive, &C::Cohesive::law>(), {"evans_marathe", "linear", "benzeggagh_kenane"}, "softening law of the cohesive elements"),
@@ -196,13 +246,13 @@ std::vector<TableSpec> make_tables() {
       number("tangential_penalty", slot<&C::contact, &C::Contact::tangential_penalty>(), pressure, not_negative, Need::never, "of broken faces that stick", "cohesive.penalty"),
       number("friction_angle", slot<&C::contact, &C::Contact::friction_angle>(), angle, friction, Need::never, "residual friction angle of broken faces", "rock.friction_angle"),
     }},
-    rows_of<&C::joints>("joints", with_joint_properties<&C::joints>({
+    rows_of<&C::joints>("joints", with({
       number("x1", slot<&C::joints, &C::Joint::x1>(), length, any, Need::always, "one end of the joint"),
       number("y1", slot<&C::joints, &C::Joint::y1>(), length, any, Need::always, "one end of the joint"),
       number("x2", slot<&C::joints, &C::Joint::x2>(), length, any, Need::always, "the other end"),
       number("y2", slot<&C::joints, &C::Joint::y2>(), length, any, Need::always, "the other end"),
-    })),
-    rows_of<&C::joint_sets>("joint_sets", with_joint_properties<&C::joint_sets>({
+    }, joint_properties<&C::joints>())),
+    rows_of<&C::joint_sets>("joint_sets", with({
       named("name", of_set<&JS::name>(), "of the set; with mesh.file the name of its joints there", "set1, set2, ...; with mesh.file: all others"),
       text("file", of_set<&JS::file>(), "a CSV file of joints (columns x1_m, y1_m, x2_m, y2_m), relative to the file that names it, instead of density", "none"),
       number("density", of_set<&JS::density>(), per_area, positive, Need::never, "joints per area, of a random set", "none"),
@@ -222,7 +272,7 @@ std::vector<TableSpec> make_tables() {
       number("region_y_max", of_set<&JS::region_y_max>(), length, any, Need::never, "upper side", "the domain's"),
       number("clear_distance", of_set<&JS::clear_distance>(), length, not_negative, Need::never, "joints that come nearer to the wellbore's wall are left out", "none"),
       count("seed", of_set<&JS::seed>(), "of the random numbers of the set", "1, 2, ... by row"),
-    })),
+    }, joint_properties<&C::joint_sets>())),
     {"damping", {
       number("viscosity", slot<&C::damping, &C::Damping::viscosity>(), viscosity, not_negative, Need::never, "viscous stress over strain rate, instead of ratio", "none"),
       number("ratio", slot<&C::damping, &C::Damping::ratio>(), plain, not_negative, Need::never, "of the critical viscosity 2 h sqrt(E rho), instead of viscosity", "0.1"),

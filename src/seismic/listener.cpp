@@ -57,7 +57,8 @@ std::vector<SeismicEvent> listen(const State& state, std::span<const Index> brok
     event.length = norm(c.direction[at(element)]);
     event.opening = h.point[2].opening;
     event.slip = h.point[2].slip;
-    event.moment = moment_of_jump(medium.rock, direction, event.length, event.opening, event.slip);
+    const Lame& rock = medium.of(state.mesh->edges[at(c.edge[at(element)])].triangle[0]);
+    event.moment = moment_of_jump(rock, direction, event.length, event.opening, event.slip);
     event.moment_magnitude = moment_magnitude(scalar_moment(event.moment) * medium.thickness);
     event.edge = c.edge[at(element)];
     events.push_back(event);
@@ -88,7 +89,7 @@ std::vector<SeismicEvent> listen_to_damage(const State& state, std::span<const I
     event.opening = d.opening;
     event.slip = d.slip;
     const Vec2 along{-d.normal.y, d.normal.x};  // the crack's normal is to its right
-    event.moment = moment_of_jump(medium.rock, along, event.length, d.opening, d.slip);
+    event.moment = moment_of_jump(medium.of(d.triangle), along, event.length, d.opening, d.slip);
     event.moment_magnitude = moment_magnitude(scalar_moment(event.moment) * medium.thickness);
     events.push_back(event);
   }

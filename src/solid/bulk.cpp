@@ -83,20 +83,15 @@ CRACKLE_KERNEL double viscous_forces(const TriangleRun& r, const PlaneStiffness&
 
 }  // namespace
 
-Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density,
-           const InSituStress& in_situ_stress, const Damping& damping)
-    : stiffness_(stiffness),
-      density_(density),
-      weight_(in_situ_stress.gradient.yy),
+Bulk::Bulk(const Mesh& mesh, std::vector<BulkMaterial> materials, std::vector<std::uint16_t> of_triangle,
+           const Damping& damping)
+    : materials_(std::move(materials)),
+      of_triangle_(std::move(of_triangle)),
       viscous_(damping.viscosity > 0.0 || damping.ratio > 0.0),
       inverse_shape_(mesh.triangles.size()),
       area_(mesh.triangles.size()),
       in_situ_(mesh.triangles.size()) {
   if (viscous_) viscosity_.resize(mesh.triangles.size());
-  // Young's modulus in plane strain from the stiffness, for the critical viscosity only.
-  const double mu = stiffness.c66;
-  const double lambda = stiffness.c12;
-  const double young_modulus = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     const Vec2 d1 = mesh.vertices[at(v[1])] - mesh.vertices[at(v[0])];
@@ -105,8 +100,12 @@ Bulk::Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density,
     inverse_shape_[t] = {d2.y / twice, -d2.x / twice, -d1.y / twice, d1.x / twice};
     area_[t] = 0.5 * twice;
     const double depth = -mesh.vertices[at(v[0])].y - (d1.y + d2.y) / 3.0;  // of the centroid
-    in_situ_[t] = in_situ_stress.origin + depth * in_situ_stress.gradient;
+    const auto& [stiffness, density, in_situ] = materials_[number(static_cast<Index>(t))];
+    in_situ_[t] = in_situ.origin + depth * in_situ.gradient;
     if (viscous_) {
+      // Young's modulus from the stiffness, for the critical viscosity only.
+      const double mu = stiffness.c66, lambda = stiffness.c12;
+      const double young_modulus = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
       const double h =
           std::sqrt(4.0 / std::sqrt(3.0) * area_[t]);  // edge of the equilateral triangle of this area
       viscosity_[t] = damping.viscosity + damping.ratio * 2.0 * h * std::sqrt(young_modulus * density);
@@ -128,16 +127,23 @@ TriangleRun Bulk::run_of(State& state, Index begin, Index end) const {
 }
 
 double Bulk::corner_forces(State& state, Index begin, Index end, Vec2* forces) const {
-  const TriangleRun run = run_of(state, begin, end);
-  const double power =
-      viscous_ ? viscous_forces(run, stiffness_, forces) : elastic_forces(run, stiffness_, forces);
+  double power = 0.0;
+  for (Index from = begin; from < end;) {  // runs of one material
+    Index to = layered() ? from + 1 : end;
+    while (to < end && number(to) == number(from)) ++to;
+    const TriangleRun run = run_of(state, from, to);
+    const PlaneStiffness& c = stiffness(from);
+    Vec2* const first = forces + 3 * (from - begin);
+    power += viscous_ ? viscous_forces(run, c, first) : elastic_forces(run, c, first);
+    from = to;
+  }
   add_weight(begin, end, forces);
   return power;
 }
 
 void Bulk::add_weight(Index begin, Index end, Vec2* forces) const {
-  if (weight_ == 0.0) return;
   for (Index t = begin; t < end; ++t) {
+    if (weight(t) == 0.0) continue;
     for (Index i = 0; i < 3; ++i) forces[3 * (t - begin) + i].y += corner_weight(t);
   }
 }
@@ -148,9 +154,9 @@ std::array<Vec2, 3> Bulk::triangle_forces(const State& state, Index t) const {
   TriangleRun run = run_of(const_cast<State&>(state), t, t + 1);
   run.strain_rate = &rate;
   if (viscous_) {
-    viscous_forces(run, stiffness_, forces.data());
+    viscous_forces(run, stiffness(t), forces.data());
   } else {
-    elastic_forces(run, stiffness_, forces.data());
+    elastic_forces(run, stiffness(t), forces.data());
   }
   add_weight(t, t + 1, forces.data());
   return forces;
@@ -189,7 +195,7 @@ double Bulk::strain_energy(const State& state, Index t) const {
   const Index* n = &state.node_of_corner[at(3 * t)];
   const Sym2 e = green_strain(gradient(inverse_shape_[at(t)], state.displacement[at(n[0])],
                                        state.displacement[at(n[1])], state.displacement[at(n[2])]));
-  const Sym2 s = 0.5 * stiffness_.stress(e) + in_situ_[at(t)];
+  const Sym2 s = 0.5 * stiffness(t).stress(e) + in_situ_[at(t)];
   return area_[at(t)] * (s.xx * e.xx + s.yy * e.yy + 2.0 * s.xy * e.xy);
 }
 
@@ -197,7 +203,7 @@ Sym2 Bulk::stress(const State& state, Index triangle) const {
   const Index* n = &state.node_of_corner[at(3 * triangle)];
   const Gradient<double> h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],
                                       state.displacement[at(n[1])], state.displacement[at(n[2])]);
-  const Sym2 s = stiffness_.stress(green_strain(h)) + in_situ_[at(triangle)];
+  const Sym2 s = stiffness(triangle).stress(green_strain(h)) + in_situ_[at(triangle)];
   // σ = F S Fᵀ / J
   const double fxx = 1.0 + h.xx, fyy = 1.0 + h.yy, fxy = h.xy, fyx = h.yx;
   const double j = fxx * fyy - fxy * fyx;

@@ -103,7 +103,7 @@ double kinetic_energy(const State& state, const Bulk& bulk, Index triangle) {
     const Vec2 v = state.velocity[at(state.node_of_corner[3 * at(triangle) + i])];
     sum += dot(v, v);
   }
-  return bulk.density() * bulk.area(triangle) / 6.0 * sum;
+  return bulk.density(triangle) * bulk.area(triangle) / 6.0 * sum;
 }
 
 // Forces of a stress in the frame that turns with the triangle: P = R (T + a W), W a quarter turn, with the
@@ -163,18 +163,7 @@ StressScreen screen_of(const DamageMaterial& rock) {
 StressScreen Damage::screen() const {
   StressScreen all = screen_of(materials_.front());
   for (const DamageMaterial& m : materials_) {
-    const StressScreen one = screen_of(m);
-    if (one.tan_friction != all.tan_friction) {
-      // Without friction a triangle passes earlier, as long as it is pressed.
-      const auto frictionless = [](const StressScreen& s) {
-        return s.shear / std::sqrt(1.0 + s.tan_friction * s.tan_friction);
-      };
-      all.shear = std::min(frictionless(all), frictionless(one));
-      all.tan_friction = 0.0;
-    } else {
-      all.shear = std::min(all.shear, one.shear);
-    }
-    all.tension = std::min(all.tension, one.tension);
+    all = either(all, screen_of(m));
   }
   return all;
 }
@@ -201,7 +190,7 @@ Index Damage::initiate(State& state, const Bulk& bulk, std::span<const Index> ca
     // Strength is asked of the stress in the frame that turns with the triangle.
     const Stretch f = stretch_of(state, bulk.shape_gradients(t), t);
     const Sym2 strain = f.u + Sym2{-1.0, -1.0, 0.0};
-    const Sym2 stress = bulk.stiffness().stress(strain) + bulk.in_situ(t);
+    const Sym2 stress = bulk.stiffness(t).stress(strain) + bulk.in_situ(t);
     const CrackStart start = crack_start(material(t), stress);
     if (!start.reached) continue;
     crack(state, bulk, t, start);
@@ -213,7 +202,7 @@ Index Damage::initiate(State& state, const Bulk& bulk, std::span<const Index> ca
 
 void Damage::crack(State& state, const Bulk& bulk, Index t, const CrackStart& start) const {
   DamagedTriangle d = make(state, bulk, t, start.normal);
-  const CrackFrame a(bulk.stiffness(), start.normal);
+  const CrackFrame a(bulk.stiffness(t), start.normal);
   const DamageMaterial m = on_plane(material(t), start.normal);
   d.strength = {m.tensile_strength, start.cohesion};
   const std::array<double, 2> energy{m.fracture_energy_mode1, m.fracture_energy_mode2};
@@ -229,7 +218,7 @@ void Damage::crack(State& state, const Bulk& bulk, Index t, const CrackStart& st
   const auto gradients = bulk.shape_gradients(t);
   const Stretch f = stretch_of(state, gradients, t);
   DamagedTriangle intact = d;
-  intact.stress = bulk.stiffness().stress(f.u + Sym2{-1.0, -1.0, 0.0}) + bulk.in_situ(t);
+  intact.stress = bulk.stiffness(t).stress(f.u + Sym2{-1.0, -1.0, 0.0}) + bulk.in_situ(t);
   set_forces(intact, f, gradients, bulk.area(t));
   evaluate(state, bulk, d);
   // What the triangle loses at this strain, by passing its strength within a step, and what its forces that
@@ -269,7 +258,7 @@ Damage::Spent Damage::evaluate(const State& state, const Bulk& bulk, DamagedTria
   const auto gradients = bulk.shape_gradients(d.triangle);
   const double area = bulk.area(d.triangle);
   const Sym2 in_situ = bulk.in_situ(d.triangle);
-  const PlaneStiffness& c = bulk.stiffness();
+  const PlaneStiffness& c = bulk.stiffness(d.triangle);
   const DamageMaterial m = on_plane(material(d.triangle), d.normal);
   const Stretch f = stretch_of(state, gradients, d.triangle);
   const CrackFrame a(c, d.normal);

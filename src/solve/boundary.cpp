@@ -10,7 +10,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
+AbsorbingBoundary::AbsorbingBoundary(const State& state, const std::function<BulkMaterial(Index)>& rock,
                                      std::span<const Vec2> loads) {
   std::map<Index, BoundaryNode> nodes;
   for (const Edge& edge : state.mesh->edges) {
@@ -20,7 +20,9 @@ AbsorbingBoundary::AbsorbingBoundary(const State& state, const PlaneStiffness& s
     const Vec2 along = state.reference(second) - state.reference(first);
     const double half = 0.5 * norm(along);
     const Vec2 n = (0.5 / half) * right_normal(along);
-    const WaveSpeeds c = wave_speeds(stiffness, density, n);
+    const BulkMaterial material = rock(edge.triangle[0]);
+    const double density = material.density;
+    const WaveSpeeds c = wave_speeds(material.stiffness, density, n);
     // ρ [c_p n nᵀ + c_s (1 − n nᵀ)] L/2
     const double p = density * c.p * half, q = density * c.s * half;
     const Sym2 dashpot{q + (p - q) * n.x * n.x, q + (p - q) * n.y * n.y, (p - q) * n.x * n.y};

@@ -39,8 +39,8 @@ StaticSolver::StaticSolver(std::shared_ptr<const Mesh> mesh_ptr, const Bulk& bul
   }
   std::vector<Eigen::Triplet<float>> entries;
   entries.reserve(mesh.triangles.size() * 21);
-  const PlaneStiffness& c = bulk.stiffness();
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const PlaneStiffness& c = bulk.stiffness(t);
     const auto g = bulk.shape_gradients(t);
     for (std::size_t i = 0; i < 3; ++i) {
       const Index row = unknown_[at(mesh.triangles[at(t)][i])];

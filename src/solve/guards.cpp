@@ -234,7 +234,7 @@ std::vector<Finding> Guards::after_step(const Simulation& s, const Energies& e) 
       if (edge.kind == EdgeKind::wellbore)
         round += norm(mesh.vertices[at(edge.vertex[1])] - mesh.vertices[at(edge.vertex[0])]);
     }
-    const double quiet = transits * round / wave_speeds(s.scene().stiffness, s.scene().density).s;
+    const double quiet = transits * round / slowest_shear_wave(s.scene());
     if (s.state().time > quiet) {
       raise(
           found, Alarm::shaking, false,

@@ -62,7 +62,7 @@ class MassScaled {
       strain = strain + Sym2{u.x * g.x, u.y * g.y, 0.5 * (u.x * g.y + u.y * g.x)};
     }
     const Sym2 stress =
-        part_ == Part::stiffness ? bulk_.stiffness().stress(strain) : bulk_.viscosity(t) * strain;
+        part_ == Part::stiffness ? bulk_.stiffness(t).stress(strain) : bulk_.viscosity(t) * strain;
     for (std::size_t i = 0; i < 3; ++i) corner_[at(3 * t) + i] = bulk_.area(t) * (stress * gradient[i]);
   }
 

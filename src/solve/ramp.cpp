@@ -61,7 +61,8 @@ Vec2 Ramp::displacement(Index vertex, double p) const {
   return (1.0 - s) * first_.displacement[at(vertex)] + s * last_.displacement[at(vertex)];
 }
 
-std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk, const CohesiveMaterial& material,
+std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk,
+                                     const std::function<const CohesiveMaterial&(Index)>& material,
                                      double share, const Ramp::Point& first, const Ramp::Point& second) {
   const Mesh& mesh = *at_rest.mesh;
   State tied = at_rest;
@@ -78,7 +79,7 @@ std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk, con
         const std::size_t t = at(edge.triangle[0]), o = at(edge.triangle[1]);
         const Sym2 stress = (0.5 * (1.0 - s)) * (a[t] + a[o]) + (0.5 * s) * (b[t] + b[o]);
         const Vec2 side = mesh.vertices[at(edge.vertex[1])] - mesh.vertices[at(edge.vertex[0])];
-        if (Cohesive::utilisation(material, stress, (1.0 / norm(side)) * side) >= share) any = 1.0;
+        if (Cohesive::utilisation(material(e), stress, (1.0 / norm(side)) * side) >= share) any = 1.0;
       }
       return any;
     });

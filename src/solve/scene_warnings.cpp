@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace crackle {
 namespace {
@@ -27,8 +30,9 @@ std::string megapascal(double pressure) { return fmt::format("{:.4g} MPa", 1e-6 
 std::string gigapascal(double modulus) { return fmt::format("{:.4g} GPa", 1e-9 * modulus); }
 std::string millisecond(double time) { return fmt::format("{:.3g} ms", 1e3 * time); }
 
-void cohesive_zones(const Scene& scene, const CohesiveMaterial& m, const MeshMeasure& mesh, Lines& lines) {
-  const double modulus = plane_strain_modulus(scene.stiffness);
+void cohesive_zones(const PlaneStiffness& stiffness, const CohesiveMaterial& m, const MeshMeasure& mesh,
+                    Lines& lines) {
+  const double modulus = plane_strain_modulus(stiffness);
   const auto look = [&](const char* what, double energy, double strength, const char* advice) {
     const double zone = cohesive_zone(modulus, energy, strength);
     if (zone >= edges_per_zone * mesh.edge) return;
@@ -46,19 +50,26 @@ void cohesive_zones(const Scene& scene, const CohesiveMaterial& m, const MeshMea
 
 double longest_edge(const Scene& scene) {
   double longest = std::numeric_limits<double>::infinity();
-  for (const CohesiveMaterial& m : extreme_planes(scene.cohesive))
-    longest = std::min(longest, scene.law->longest_edge(m));
+  for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
+    for (const CohesiveMaterial& m : extreme_planes(scene.rock(layer).cohesive))
+      longest = std::min(longest, scene.law->longest_edge(m));
+  }
   return longest;
 }
 
 // The longest element that damage can follow, across a crack and along it.
 std::array<double, 2> damage_limits(const Scene& scene) {
-  const DamageMaterial& m = scene.damage.materials.front();
-  auto limits = size_limits(m, *scene.damage.law, scene.stiffness, {1.0, 0.0});
-  if (!m.bedding) return limits;
-  for (const Vec2 n : {m.bedding.normal, Vec2{-m.bedding.normal.y, m.bedding.normal.x}}) {
-    const auto here = size_limits(m, *scene.damage.law, scene.stiffness, n);
-    for (std::size_t i = 0; i < 2; ++i) limits[i] = std::min(limits[i], here[i]);
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  std::array<double, 2> limits{inf, inf};
+  for (std::size_t layer = 0; layer < scene.damage.materials.size(); ++layer) {
+    const DamageMaterial& m = scene.damage.materials[layer];
+    std::vector<Vec2> normals{{1.0, 0.0}};
+    if (m.bedding) normals = {m.bedding.normal, {-m.bedding.normal.y, m.bedding.normal.x}};
+    for (const Vec2 n : normals) {
+      const auto here =
+          size_limits(m, *scene.damage.law, scene.rock(std::min(layer, scene.layers.size())).stiffness, n);
+      for (std::size_t i = 0; i < 2; ++i) limits[i] = std::min(limits[i], here[i]);
+    }
   }
   return limits;
 }
@@ -264,7 +275,11 @@ std::vector<std::string> scene_warnings(const Scene& scene, double end_time, con
   }
   if (scene.damage.law) damage_sizes(scene, mesh, lines);
   if (scene.breaks()) {
-    for (const CohesiveMaterial& m : extreme_planes(scene.cohesive)) cohesive_zones(scene, m, mesh, lines);
+    for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
+      const RockMass& rock = scene.rock(layer);
+      for (const CohesiveMaterial& m : extreme_planes(rock.cohesive))
+        cohesive_zones(rock.stiffness, m, mesh, lines);
+    }
     pressure_loss(scene, end_time, lines);
     wall_before_pumping(scene, mesh, lines);
   }

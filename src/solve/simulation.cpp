@@ -39,12 +39,6 @@ inline void add_element_forces(const Index* element_on_side, const EndForces* fo
   }
 }
 
-std::vector<CohesiveMaterial> materials_of(const Scene& scene) {
-  std::vector<CohesiveMaterial> materials{scene.cohesive};
-  materials.insert(materials.end(), scene.joint_materials.begin(), scene.joint_materials.end());
-  return materials;
-}
-
 // Wall of the wellbore and pre-cut cracks: where the fluid is at the start.
 std::vector<Index> wetted_edges(const Scene& scene) {
   std::vector<Index> edges;
@@ -77,9 +71,7 @@ double Simulation::longest_joint_edge(const Mesh& mesh) {
 }
 
 Simulation::Simulation(Scene scene)
-    : scene_(std::move(scene)),
-      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density,
-            {scene_.stress, scene_.stress_gradient}, scene_.damping) {
+    : scene_(std::move(scene)), materials_(edge_materials(scene_)), bulk_(bulk_of(scene_)) {
   // First, while there is little else in memory: the factorisation is the largest thing of all.
   const std::vector<Vec2> displacement = geostatic_displacement();
   const bool split = scene_.law && !scene_.insertion.on_demand;
@@ -88,15 +80,13 @@ Simulation::Simulation(Scene scene)
     state_.displacement[at(state_.node_of_corner[c])] =
         displacement[at(scene_.mesh->triangles[c / 3][c % 3])];
   }
-  set_mass(state_, scene_.density);
+  set_mass(state_, bulk_);
   if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
   if (scene_.law) {
-    cohesive_.emplace(scene_.law, materials_of(scene_));
+    cohesive_.emplace(scene_.law, materials_.all);
     if (split) {
       insert_all(state_);
-      for (const JointEdge& joint : scene_.joints) {
-        state_.cohesive.material[at(state_.cohesive.of_edge[at(joint.edge)])] = joint.material;
-      }
+      set_materials(state_, scene_, materials_);
       cut_cracks();
     }
   }
@@ -135,9 +125,9 @@ Simulation::Simulation(Scene scene)
 
 Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     : scene_(std::move(scene)),
+      materials_(edge_materials(scene_)),
       state_(std::move(state)),
-      bulk_(*scene_.mesh, scene_.triangle_stiffness.value_or(scene_.stiffness), scene_.density,
-            {scene_.stress, scene_.stress_gradient}, scene_.damping),
+      bulk_(bulk_of(scene_)),
       stable_(memory.stable),
       stressed_(std::move(memory.stressed)),
       slowed_(memory.slowed),
@@ -152,7 +142,7 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
   }
   if (!stressed_.empty()) set_screen();
   if (scene_.damage.law) begin_damage();
-  if (scene_.law) cohesive_.emplace(scene_.law, materials_of(scene_));
+  if (scene_.law) cohesive_.emplace(scene_.law, materials_.all);
   if (scene_.contact.normal_penalty > 0.0) {
     contact_.emplace(state_, scene_.contact);
     contact_->rebuild(state_);
@@ -227,8 +217,9 @@ void Simulation::find_ramp(const StaticSolver& solver, State& wet, std::optional
   const double p1 = p0 + scene_.cohesive.tensile_strength;
   const Ramp::Point at_rest = point(p0, first);
   const Ramp::Point second = point(p1, equilibrium(p1, first));
-  const std::optional<double> onset =
-      onset_pressure(wet, bulk_, scene_.cohesive, scene_.insertion.threshold, at_rest, second);
+  const std::optional<double> onset = onset_pressure(
+      wet, bulk_, [&](Index e) -> const CohesiveMaterial& { return materials_.all[materials_.number(e)]; },
+      scene_.insertion.threshold, at_rest, second);
   if (!onset || *onset <= p0) return;
   Ramp ramp(at_rest, point(*onset, equilibrium(*onset, second.displacement)), *scene_.fluid);
   // When has the pump injected that much?
@@ -244,7 +235,7 @@ void Simulation::find_ramp(const StaticSolver& solver, State& wet, std::optional
     if (edge.kind == EdgeKind::wellbore)
       round += norm(scene_.mesh->vertices[at(edge.vertex[1])] - scene_.mesh->vertices[at(edge.vertex[0])]);
   }
-  if (low < 2.0 * round / wave_speeds(scene_.stiffness, scene_.density).s) return;
+  if (low < 2.0 * round / slowest_shear_wave(scene_)) return;
   ramp_ = std::move(ramp);
   ramp_end_ = low;
 }
@@ -307,7 +298,7 @@ void Simulation::settle() {
   // first wave leaves the wellbore everything is smaller than one step of the pump.
   scale_ = 0.0;
   for (Index t = 0; t < mesh.triangle_count(); ++t)
-    scale_ += 1e-13 * scene_.stiffness.largest() * bulk_.area(t);
+    scale_ += 1e-13 * scene_.rock_of(t).stiffness.largest() * bulk_.area(t);
   reference_ = {};
   reference_.strain = bulk_.strain_energy(state_);
   if (damage_) reference_.strain += damage_->stored_energy_correction(state_, bulk_);
@@ -329,7 +320,10 @@ void Simulation::bear_geostatic_loads(std::vector<Vec2> forces) {
   for (std::size_t c = 0; c < forces.size(); ++c) {
     forces[c] = outer[at(mesh.triangles[c / 3][c % 3])] ? -forces[c] : Vec2{};
   }
-  boundary_.emplace(state_, scene_.stiffness, scene_.density, forces);
+  const auto rock = [&](Index t) {
+    return BulkMaterial{scene_.rock_of(t).stiffness, scene_.rock_of(t).density, {}};
+  };
+  boundary_.emplace(state_, rock, forces);
 }
 
 void Simulation::relax() {
@@ -340,7 +334,7 @@ void Simulation::relax() {
   // Strains of 1e-11 everywhere: with less nothing moves, as where a crack is closed by the stress.
   double nothing = 0.0;
   for (Index t = 0; t < scene_.mesh->triangle_count(); ++t)
-    nothing += 1e-22 * scene_.stiffness.largest() * bulk_.area(t);
+    nothing += 1e-22 * scene_.rock_of(t).stiffness.largest() * bulk_.area(t);
   const int most = 200000;
   const bool pressed = fluid_ && scene_.initial_pressure != 0.0 &&
                        scene_.cracks.size() + scene_.damage.cut.size() > scene_.dry_cracks.size();
@@ -377,10 +371,14 @@ void Simulation::relax() {
 }
 
 void Simulation::set_screen() {
-  const CohesiveMaterial m = weakest_plane(scene_.cohesive);
   // A utilisation of the threshold in opening and slip together is at least its √½ in one of them.
   const double share = std::sqrt(0.5) * scene_.insertion.threshold;
-  screen_ = {share * m.tensile_strength, share * m.cohesion, share * m.tan_friction};
+  const auto screen_of = [&](const RockMass& rock) {
+    const CohesiveMaterial m = weakest_plane(rock.cohesive);
+    return StressScreen{share * m.tensile_strength, share * m.cohesion, share * m.tan_friction};
+  };
+  screen_ = screen_of(scene_);
+  for (const RockMass& layer : scene_.layers) screen_ = either(screen_, screen_of(layer));
 }
 
 void Simulation::begin_damage() {
@@ -490,7 +488,8 @@ void Simulation::insert_stressed() {
         if (other < t && stressed_[at(other)]) continue;  // looked at from there
         const Sym2 stress = 0.5 * (bulk_.stress(state_, t) + bulk_.stress(state_, other));
         const Vec2 side = mesh.vertices[at(edge.vertex[1])] - mesh.vertices[at(edge.vertex[0])];
-        if (Cohesive::utilisation(scene_.cohesive, stress, (1.0 / norm(side)) * side) >=
+        const CohesiveMaterial& material = materials_.all[materials_.number(e)];
+        if (Cohesive::utilisation(material, stress, (1.0 / norm(side)) * side) >=
             scene_.insertion.threshold) {
           found[at(block)].push_back(e);
         }
@@ -524,12 +523,17 @@ void Simulation::insert_stressed() {
 
 void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material) {
   if (edges.empty()) return;
-  const double floor = 0.1 * scene_.stiffness.c66;
   std::vector<double> penalty;
+  std::vector<std::uint16_t> numbers;
   penalty.reserve(edges.size());
+  numbers.reserve(edges.size());
   for (const Index e : edges) {
+    const Edge& edge = scene_.mesh->edges[at(e)];
+    const double floor = 0.1 * std::min(scene_.rock_of(edge.triangle[0]).stiffness.c66,
+                                        scene_.rock_of(edge.triangle[1]).stiffness.c66);
+    numbers.push_back(material > 0 ? material : materials_.number(e));
     // Where a sliver leaves no room the step gives way instead.
-    penalty.push_back(std::min(cohesive_->materials()[material].penalty,
+    penalty.push_back(std::min(materials_.all[numbers.back()].penalty,
                                std::max(floor, penalty_below(state_, bulk_, e, stable_.limit))));
   }
   const Index nodes = state_.node_count();
@@ -545,7 +549,7 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
     return sum;
   };
   rough_insertions_ +=
-      static_cast<Index>(cohesive_->insert(state_, edges, penalty, material, rock, load).size());
+      static_cast<Index>(cohesive_->insert(state_, edges, penalty, numbers, rock, load).size());
   if (tiles_) tiles_->inserted(state_, physics(), edges);
   if (state_.node_count() == nodes) return;
   if (fluid_) fluid_->rebuild(state_);
@@ -586,7 +590,7 @@ void Simulation::heed_new_histories() {
 
 void Simulation::listen_to_slips() {
   // Quiet for as long as a shear wave takes along three of the longest edges.
-  const double quiet = 3.0 * longest_joint_edge_ / wave_speeds(scene_.stiffness, scene_.density).s;
+  const double quiet = 3.0 * longest_joint_edge_ / slowest_shear_wave(scene_);
   const SlipRule rule{scene_.slip_rate, 0.5 * scene_.slip_rate, quiet};
   const auto ended =
       track_slip(state_.slips, sliding_edges(state_), {state_.time, state_.time_step}, rule, medium());

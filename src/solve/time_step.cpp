@@ -21,7 +21,7 @@ double node_step(const State& state, const Bulk& bulk, const Cohesive* cohesive,
     const Index corner = state.node_corners[at(state.node_first[at(node)] + k)];
     stiffness += bulk.stiffness_rows(corner / 3)[at(corner % 3)];
     if (bulk.viscous()) viscosity += bulk.viscosity_rows(corner / 3)[at(corner % 3)];
-    mass += bulk.density() * bulk.area(corner / 3) / 3.0;
+    mass += bulk.density(corner / 3) * bulk.area(corner / 3) / 3.0;
     if (cohesive == nullptr) continue;
     for (const Index side : {corner % 3, (corner + 2) % 3}) {
       const Index element = state.cohesive.of_edge[at(mesh.triangle_edges[at(corner / 3)][at(side)])];
@@ -38,7 +38,7 @@ double penalty_below(const State& state, const Bulk& bulk, Index e, double step)
   double penalty = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < 2; ++f) {
     const Index t = edge.triangle[f];
-    const double mass = bulk.density() * bulk.area(t) / 3.0;
+    const double mass = bulk.density(t) * bulk.area(t) / 3.0;
     const auto stiffness = bulk.stiffness_rows(t), viscosity = bulk.viscosity_rows(t);
     for (const Index i : {Index{edge.side[f]}, (Index{edge.side[f]} + 1) % 3}) {
       penalty = std::min(
@@ -52,10 +52,10 @@ StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* coh
   const Mesh& mesh = *state.mesh;
   StableStep result;
   result.limit = std::numeric_limits<double>::infinity();
-  const double modulus = 0.5 * bulk.stiffness().largest();  // λ + μ
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const double area = bulk.area(t);
-    const double mass = bulk.density() * area / 3.0;
+    const double area = bulk.area(t), density = bulk.density(t);
+    const double modulus = 0.5 * bulk.stiffness(t).largest();  // λ + μ
+    const double mass = density * area / 3.0;
     double sum = 0.0;
     double joints = 0.0;
     for (Index i = 0; i < 3; ++i) {
@@ -64,16 +64,17 @@ StableStep stable_step(const State& state, const Bulk& bulk, const Cohesive* coh
       const Index code = state.element_on_side[at(3 * t + i)];
       if (cohesive == nullptr || code < 0) continue;
       const Edge& edge = mesh.edges[at(state.cohesive.edge[at(code / 2)])];
-      const double other = bulk.density() * bulk.area(edge.triangle[code % 2 == 0 ? 1 : 0]) / 3.0;
+      const Index neighbour = edge.triangle[code % 2 == 0 ? 1 : 0];
+      const double other = bulk.density(neighbour) * bulk.area(neighbour) / 3.0;
       const CohesiveMaterial material = cohesive->material(state, code / 2);
       const double penalty = std::max(material.penalty, material.tangential_penalty);
       joints = std::max(joints, 0.5 * penalty * (1.0 / mass + 1.0 / other));
     }
     const double shape =
         (sum + std::sqrt(std::max(0.0, sum * sum - 48.0 * area * area))) / (8.0 * area * area);
-    const double rock = 6.0 * modulus / bulk.density() * shape;
+    const double rock = 6.0 * modulus / density * shape;
     const double omega = std::sqrt(rock + 2.0 * joints);
-    const double xi = 3.0 * bulk.viscosity(t) / bulk.density() * shape / (2.0 * omega);
+    const double xi = 3.0 * bulk.viscosity(t) / density * shape / (2.0 * omega);
     const double limit = 2.0 / omega * (std::sqrt(1.0 + xi * xi) - xi);
     if (limit < result.limit) result = {limit, limit, 0.0, t, 2.0 / omega, 2.0 / std::sqrt(rock)};
   }

@@ -58,14 +58,18 @@ void append_element(State& state, Index e, std::uint16_t material) {
   state.element_on_side[at(corner[3])] = 2 * element + 1;
 }
 
-// Reference area of the triangles that a run of corners belongs to: their shares of a node's mass.
-double area_round(const State& state, const Index* corners, Index count) {
+// Share of a corner in the mass of its node, up to a factor that is the same for all: the area of its
+// triangle, times the density where that differs.
+double mass_share(const State& state, Index corner) {
+  const Index c = 3 * (corner / 3);
+  const Vec2 x0 = state.reference(c);
+  const double area = cross(state.reference(c + 1) - x0, state.reference(c + 2) - x0);
+  return state.density.empty() ? area : state.density[at(corner / 3)] * area;
+}
+
+double mass_share(const State& state, const Index* corners, Index count) {
   double sum = 0.0;
-  for (Index k = 0; k < count; ++k) {
-    const Index c = 3 * (corners[k] / 3);
-    const Vec2 x0 = state.reference(c);
-    sum += cross(state.reference(c + 1) - x0, state.reference(c + 2) - x0);
-  }
+  for (Index k = 0; k < count; ++k) sum += mass_share(state, corners[k]);
   return sum;
 }
 
@@ -88,7 +92,7 @@ bool tied(const State& state, Index corner, Index other) {
 void part_node(State& state, Index node, Parting& parting) {
   Index* corners = state.node_corners.data() + state.node_first[at(node)];
   const Index count = state.node_size[at(node)];
-  const double area = area_round(state, corners, count);
+  const double share = mass_share(state, corners, count);
   const double inverse_mass = state.inverse_mass[at(node)];
   parting.nodes.push_back(node);
   for (Index begin = 0; begin < count;) {
@@ -113,7 +117,7 @@ void part_node(State& state, Index node, Parting& parting) {
       parting.nodes.push_back(fan);
     }
     state.node_size[at(fan)] = end - begin;
-    state.inverse_mass[at(fan)] = inverse_mass * (area / area_round(state, corners + begin, end - begin));
+    state.inverse_mass[at(fan)] = inverse_mass * (share / mass_share(state, corners + begin, end - begin));
     for (Index k = begin; k < end; ++k) state.node_of_corner[at(corners[k])] = fan;
     begin = end;
   }
@@ -162,15 +166,29 @@ State make_split_state(std::shared_ptr<const Mesh> mesh) { return make_state(std
 
 State make_tied_state(std::shared_ptr<const Mesh> mesh) { return make_state(std::move(mesh), false); }
 
-void set_mass(State& state, double density) {
+namespace {
+
+template <class Density>
+void lump_mass(State& state, const Density& density) {
   std::vector<double> mass(state.inverse_mass.size(), 0.0);
   for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
     const Index c = static_cast<Index>(3 * t);
     const Vec2 x0 = state.reference(c);
     const double area = 0.5 * cross(state.reference(c + 1) - x0, state.reference(c + 2) - x0);
-    for (Index i = 0; i < 3; ++i) mass[at(state.node_of_corner[at(c + i)])] += density * area / 3.0;
+    for (Index i = 0; i < 3; ++i) mass[at(state.node_of_corner[at(c + i)])] += density(t) * area / 3.0;
   }
   for (std::size_t n = 0; n < mass.size(); ++n) state.inverse_mass[n] = 1.0 / mass[n];
+}
+
+}  // namespace
+
+void set_mass(State& state, double density) {
+  lump_mass(state, [&](std::size_t) { return density; });
+}
+
+void set_mass(State& state, std::vector<double> density) {
+  state.density = std::move(density);
+  lump_mass(state, [&](std::size_t t) { return state.density[t]; });
 }
 
 void fix_nodes(State& state, EdgeKind kind) {
@@ -207,11 +225,12 @@ std::span<const Index> corners_at(const State& state, Index vertex) {
   return {state.node_corners.data() + first, at(last - first)};
 }
 
-std::vector<Parting> insert_elements(State& state, std::span<const Index> edges, std::uint16_t material) {
+std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
+                                     std::span<const std::uint16_t> material) {
   std::vector<Index> vertices;
-  for (const Index e : edges) {
-    append_element(state, e, material);
-    const auto& ends = state.mesh->edges[at(e)].vertex;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    append_element(state, edges[k], material[k]);
+    const auto& ends = state.mesh->edges[at(edges[k])].vertex;
     vertices.insert(vertices.end(), ends.begin(), ends.end());
   }
   std::sort(vertices.begin(), vertices.end());
@@ -222,22 +241,13 @@ std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
 }
 
 double face_kinetic_energy(const State& state, Index element) {
-  const auto area = [&](Index corner) {
-    const Index c = corner / 3 * 3;
-    const Vec2 x0 = state.reference(c);
-    return cross(state.reference(c + 1) - x0, state.reference(c + 2) - x0);
-  };
-  // A node's mass is its corners', each in proportion to the area of its triangle.
   const auto kinetic = [&](Index corner) {
     const std::size_t node = at(state.node_of_corner[at(corner)]);
     if (state.inverse_mass[node] == 0.0) return 0.0;
     const double whole = 0.5 * dot(state.velocity[node], state.velocity[node]) / state.inverse_mass[node];
     if (state.node_size[node] == 1) return whole;
-    double sum = 0.0;
-    for (Index j = 0; j < state.node_size[node]; ++j) {
-      sum += area(state.node_corners[at(state.node_first[node] + j)]);
-    }
-    return whole * area(corner) / sum;
+    const Index* corners = state.node_corners.data() + state.node_first[node];
+    return whole * mass_share(state, corner) / mass_share(state, corners, state.node_size[node]);
   };
   const Edge& edge = state.mesh->edges[at(state.cohesive.edge[at(element)])];
   const Index a = 3 * edge.triangle[0], b = 3 * edge.triangle[1];

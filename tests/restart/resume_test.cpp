@@ -101,6 +101,34 @@ TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
   report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
 }
 
+// Layers of other density, stiffness, strength and stress, one with an interface that may part.
+TEST_F(Resume, LeavesTheSameBytesInLayeredRock) {
+  write("case.toml", std::string(good_case) + R"(
+[[layers]]
+top = "-0.04 m"
+young_modulus = "25 GPa"
+density = "2300 kg/m3"
+tensile_strength = "2 MPa"
+stress_xx = "-4 MPa"
+interface = "bonded"
+interface_tensile_strength = "1 MPa"
+interface_cohesion = "5 MPa"
+interface_friction_angle = "30 deg"
+interface_fracture_energy_mode1 = "2 J/m2"
+interface_fracture_energy_mode2 = "20 J/m2"
+)");
+  for (const char* insertion : {"all", "on_demand"}) {
+    const std::vector<std::string> how{"--set", std::string("cohesive.insertion=") + insertion};
+    const std::string whole = std::string("whole_") + insertion, parts = std::string("parts_") + insertion;
+    ASSERT_EQ(run(whole, how).code, 0);
+    EXPECT_EQ(interrupted_run(parts, 15, how).code, 75);
+    const std::string events = read_text(path(parts + "/events.csv"));
+    EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 2) << "it breaks already";
+    EXPECT_EQ(resume(parts, "2").code, 0);
+    expect_same_results(path(parts), path(whole));
+  }
+}
+
 TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
   const std::vector<std::string> absorbing{"--set", "boundary.outer=absorbing"};
   ASSERT_EQ(run("whole", absorbing).code, 0);

@@ -35,7 +35,8 @@ class Specimen {
         edges.push_back(e);
     }
     const auto none = [](Index) { return Vec2{}; };
-    cohesive.insert(state, edges, std::vector<double>(edges.size(), material.penalty), 0, none, none);
+    cohesive.insert(state, edges, std::vector<double>(edges.size(), material.penalty),
+                    std::vector<std::uint16_t>(edges.size()), none, none);
     dt = 0.8 * highest_frequency(state, bulk_, &cohesive).stable_step();
   }
 

@@ -67,11 +67,12 @@ class Cohesive {
   /// with which every part goes on at the acceleration that the node had: nothing jumps. An end that
   /// is tied still bears the mean stress of its two triangles, until it is parted in turn.
   /// @param edges in ascending order @param penalty of each, at most the material's [Pa] @param number of
-  /// their material
+  /// the material of each
   /// @param rock internal force of the rock on a corner @param load of fluid and boundary on it
   /// @return elements whose traction is beyond the elastic branch (their forces jump)
   std::vector<Index> insert(State& state, std::span<const Index> edges, std::span<const double> penalty,
-                            std::uint16_t number, const CornerForce& rock, const CornerForce& load) const;
+                            std::span<const std::uint16_t> number, const CornerForce& rock,
+                            const CornerForce& load) const;
 
   /// How near an edge of a material is to its strength under a stress, 1 at the strength:
   /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param material that of the rock, not of the plane @param along the edge,

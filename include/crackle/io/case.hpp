@@ -106,6 +106,21 @@ struct Case {
     double bedding_exponent = 1.0;                             ///< m of bedding.hpp [-]
   } rock;
 
+  /// A band of another rock between two parallel interfaces; what is in no layer is `rock`. All but the first
+  /// three is the rock's where it is not given.
+  struct Layer {
+    std::optional<double> bottom;  ///< its lower interface: distance from the origin along its normal [m]
+    std::optional<double> top;     ///< the upper one; none: it goes on to the outer boundary
+    double dip = 0.0;              ///< of the interfaces, from x anticlockwise [rad]
+    Rock rock;                     ///< but for what is of pores
+    double penalty = 0.0;  ///< of its cohesive elements [Pa]; 0: cohesive.penalty, or 20 Young's moduli
+    Sym2 stress, stress_gradient;  ///< in situ, as in [stress]
+    struct Interface : JointProperties {
+      Interface() { law = "perfect"; }  ///< no joint; else "bonded" or "frictional"
+    } interface;
+  };
+  std::vector<Layer> layers;
+
   struct Cohesive {
     std::string preset = "accurate";        ///< defaults of the next three: "accurate" as here, or "y_geo"
     std::string law = "benzeggagh_kenane";  ///< a registered law; y_geo: "evans_marathe"

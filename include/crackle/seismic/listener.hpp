@@ -7,6 +7,7 @@
 // Energies of a 2D model are per metre; `thickness` [m] turns them into joules.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,15 @@ FailureMode failure_mode(double sliding_share);
 
 /// What turns jumps and energies of the plane into moments and magnitudes.
 struct SeismicMedium {
-  Lame rock;               ///< [Pa]
-  double thickness = 1.0;  ///< out of plane [m]
+  Lame rock;                                        ///< [Pa]
+  double thickness = 1.0;                           ///< out of plane [m]
+  std::vector<Lame> layers = {};                    ///< rocks beside it [Pa]
+  std::span<const std::uint16_t> of_triangle = {};  ///< 0: rock, 1: the first of layers; empty: rock
+  /// Of the rock that a triangle is of.
+  const Lame& of(Index triangle) const {
+    const std::size_t layer = of_triangle.empty() ? 0 : of_triangle[static_cast<std::size_t>(triangle)];
+    return layer == 0 ? rock : layers[layer - 1];
+  }
 };
 
 /// Events of the elements that broke in this step.

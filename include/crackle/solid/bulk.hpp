@@ -14,6 +14,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "crackle/solid/stiffness.hpp"
@@ -29,6 +31,13 @@ struct InSituStress {  // NOLINTNEXTLINE(google-explicit-constructor): a stress 
   Sym2 gradient;  ///< change per metre of depth, which is −y [Pa/m]; its xy is 0
 };
 
+/// What triangles are made of, and the stress that they bear before anything is done to them.
+struct BulkMaterial {
+  PlaneStiffness stiffness;
+  double density = 0.0;  ///< [kg/m3]
+  InSituStress in_situ;
+};
+
 struct TriangleRun;
 
 /// Rock between the fractures: reference geometry and material of every triangle.
@@ -42,17 +51,27 @@ class Bulk {
   };
 
   Bulk(const Mesh& mesh, const PlaneStiffness& stiffness, double density, const InSituStress& in_situ_stress,
+       const Damping& damping)
+      : Bulk(mesh, {{stiffness, density, in_situ_stress}}, {}, damping) {}
+  /// @param of_triangle which of the materials every triangle is of; empty: all of the first
+  Bulk(const Mesh& mesh, std::vector<BulkMaterial> materials, std::vector<std::uint16_t> of_triangle,
        const Damping& damping);
 
   bool viscous() const { return viscous_; }
-  double density() const { return density_; }
+  /// Number of a triangle's material.
+  std::uint16_t number(Index triangle) const {
+    return of_triangle_.empty() ? std::uint16_t{0} : of_triangle_[static_cast<std::size_t>(triangle)];
+  }
+  bool layered() const { return !of_triangle_.empty(); }
+  const std::vector<BulkMaterial>& materials() const { return materials_; }
+  const PlaneStiffness& stiffness(Index triangle) const { return materials_[number(triangle)].stiffness; }
+  double density(Index triangle) const { return materials_[number(triangle)].density; }
   double area(Index triangle) const { return area_[static_cast<std::size_t>(triangle)]; }
   double viscosity(Index triangle) const {
     return viscous_ ? viscosity_[static_cast<std::size_t>(triangle)] : 0.0;
   }
-  const PlaneStiffness& stiffness() const { return stiffness_; }
   /// Weight of the rock [N/m3], along y; 0: it is in the in-situ stress already.
-  double weight() const { return weight_; }
+  double weight(Index triangle) const { return materials_[number(triangle)].in_situ.gradient.yy; }
 
   /// Forces [N/m] on the three corners of triangles [begin, end), in corner order, written (not
   /// added) to forces[3 (t − begin) + i], weight included. Writes state.strain_rate when viscous.
@@ -63,7 +82,7 @@ class Bulk {
   std::array<Vec2, 3> triangle_forces(const State& state, Index triangle) const;
   /// For each corner of a triangle the sum of the norms of its stiffness [N/m2], or viscosity [N s/m2],
   /// against all three corners: the rows of Gershgorin's bound, by blocks.
-  std::array<double, 3> stiffness_rows(Index triangle) const { return rows(triangle, stiffness_); }
+  std::array<double, 3> stiffness_rows(Index triangle) const { return rows(triangle, stiffness(triangle)); }
   std::array<double, 3> viscosity_rows(Index triangle) const {
     const double mu = viscosity(triangle);
     return rows(triangle, {mu, 0.0, mu, 0.0, 0.0, 0.5 * mu});
@@ -77,7 +96,7 @@ class Bulk {
   Sym2 in_situ(Index triangle) const { return in_situ_[static_cast<std::size_t>(triangle)]; }
   /// Share of a triangle's weight that each of its corners bears, along y [N/m].
   double corner_weight(Index triangle) const {
-    return weight_ * area_[static_cast<std::size_t>(triangle)] / 3.0;
+    return weight(triangle) * area_[static_cast<std::size_t>(triangle)] / 3.0;
   }
   /// From now on a triangle is not damped.
   void drop_viscosity(Index triangle) {
@@ -98,9 +117,8 @@ class Bulk {
   TriangleRun run_of(State& state, Index begin, Index end) const;
   void add_weight(Index begin, Index end, Vec2* forces) const;
 
-  PlaneStiffness stiffness_;
-  double density_;
-  double weight_;  // of the rock per volume, along y [N/m3]
+  std::vector<BulkMaterial> materials_;
+  std::vector<std::uint16_t> of_triangle_;
   bool viscous_ = false;
   std::vector<std::array<double, 4>> inverse_shape_;  // rows ∇N_1, ∇N_2
   std::vector<double> area_;

@@ -4,6 +4,9 @@
 // of doubles (a GCC vector, one triangle a lane). The same operations in the same order: the same bits.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "crackle/solid/stiffness.hpp"
 
 namespace crackle {
@@ -15,6 +18,20 @@ struct StressScreen {
   double shear = 0.0;    ///< [Pa]
   double tan_friction = 0.0;
 };
+
+/// One that all pass who pass one of the two.
+inline StressScreen either(const StressScreen& a, const StressScreen& b) {
+  StressScreen both{std::min(a.tension, b.tension), std::min(a.shear, b.shear), a.tan_friction};
+  if (a.tan_friction != b.tan_friction) {
+    // Without friction a triangle passes earlier, as long as it is pressed.
+    const auto frictionless = [](const StressScreen& s) {
+      return s.shear / std::sqrt(1.0 + s.tan_friction * s.tan_friction);
+    };
+    both.shear = std::min(frictionless(a), frictionless(b));
+    both.tan_friction = 0.0;
+  }
+  return both;
+}
 
 namespace triangle {
 

@@ -8,11 +8,12 @@
 // pressurisation drifts slowly outward.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "crackle/solid/stiffness.hpp"
+#include "crackle/solid/bulk.hpp"
 #include "crackle/state/state.hpp"
 
 namespace crackle {
@@ -29,8 +30,9 @@ class AbsorbingBoundary {
  public:
   /// As it was (after a resume).
   explicit AbsorbingBoundary(std::vector<BoundaryNode> nodes) : nodes_(std::move(nodes)) {}
+  /// @param rock stiffness and density of a triangle
   /// @param loads constant force on every corner of the outer boundary [N/m] (others are zero)
-  AbsorbingBoundary(const State& state, const PlaneStiffness& stiffness, double density,
+  AbsorbingBoundary(const State& state, const std::function<BulkMaterial(Index triangle)>& rock,
                     std::span<const Vec2> loads);
 
   /// Before the rock moves: notes the velocities that the step begins with.

@@ -6,6 +6,7 @@
 // dynamics have something to do.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,7 +52,9 @@ class Ramp {
 
 /// Lowest pressure [Pa] above the first at which a tied interior edge comes to a share of its strength,
 /// when stresses go on as from the first point to the second; nothing if one is there already.
-std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk, const CohesiveMaterial& material,
+/// @param material of an edge
+std::optional<double> onset_pressure(const State& at_rest, const Bulk& bulk,
+                                     const std::function<const CohesiveMaterial&(Index edge)>& material,
                                      double share, const Ramp::Point& first, const Ramp::Point& second);
 
 }  // namespace crackle

@@ -50,19 +50,26 @@ struct JointEdge {
   bool bonded = false;         ///< breaks by its own strength; else closed, held by friction alone
 };
 
-/// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive.
-struct Scene {
-  std::shared_ptr<const Mesh> mesh;  ///< excavated
+/// A rock and its in-situ stress.
+struct RockMass {
   PlaneStiffness stiffness;
   std::optional<PlaneStiffness> triangle_stiffness;  ///< where it is not the rock's, see compensated()
   double density = 0.0;                              ///< [kg/m3]
   Sym2 stress;                                       ///< in situ, effective, at the origin [Pa]
   Sym2 stress_gradient;                              ///< its change per metre of depth, −y; xy is 0 [Pa/m]
+  CohesiveMaterial cohesive;                         ///< of its cohesive elements
+};
+
+/// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive. Its own rock is what is
+/// not in a layer.
+struct Scene : RockMass {
+  std::shared_ptr<const Mesh> mesh;  ///< excavated
+  std::vector<RockMass> layers;
+  std::vector<std::uint16_t> layer_of_triangle;  ///< 0: none, 1: the first; empty: none anywhere
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw>
       law;  ///< nullptr: no cohesive elements; beside damage: on cracks and joints only, insertion on demand
   DamageChoice damage;  ///< without a law here and there the rock cannot break
-  CohesiveMaterial cohesive;
   InsertionPolicy insertion;
   ContactMaterial contact;          ///< of faces that have moved past their partner
   bool absorbing_boundary = false;  ///< outer boundary: absorbing, or fixed
@@ -84,7 +91,34 @@ struct Scene {
   double thickness = 1.0;     ///< for magnitudes [m]
   double slip_rate = 1e-2;    ///< at which the slip of a joint is an event [m/s]
   bool breaks() const { return law != nullptr || damage.law != nullptr; }
+  /// Of a layer by its number, as in layer_of_triangle.
+  const RockMass& rock(std::size_t layer) const { return layer == 0 ? *this : layers[layer - 1]; }
+  const RockMass& rock_of(Index triangle) const {
+    return rock(layer_of_triangle.empty() ? 0 : layer_of_triangle[static_cast<std::size_t>(triangle)]);
+  }
 };
+
+/// The rock between the fractures of a scene.
+Bulk bulk_of(const Scene& scene);
+
+/// Lumps the mass of every triangle to its corners.
+void set_mass(State& state, const Bulk& bulk);
+
+/// Cohesive materials by their numbers: the rock's, those of joints, of layers, and of edges between two
+/// rocks, which have the lower of each strength and fracture energy.
+struct EdgeMaterials {
+  std::vector<CohesiveMaterial> all;
+  std::vector<std::uint16_t> of_edge;  ///< of the mesh, as far as no joint runs there; empty: all the rock's
+  std::uint16_t number(Index edge) const {
+    return of_edge.empty() ? std::uint16_t{0} : of_edge[static_cast<std::size_t>(edge)];
+  }
+};
+EdgeMaterials edge_materials(const Scene& scene);
+/// Gives elements on all edges their materials, joints those of theirs.
+void set_materials(State& state, const Scene& scene, const EdgeMaterials& materials);
+
+/// Shear wave of the slowest of the rocks [m/s].
+double slowest_shear_wave(const Scene& scene);
 
 /// Energies per metre of thickness [J/m], at full steps; stored ones are changes since the start of
 /// the dynamics, dissipated ones sums of their own increments.
@@ -181,7 +215,7 @@ class Simulation {
   Tiles::Physics physics() const { return {bulk_, cohesive()}; }
   void listen_to_slips();
   static double longest_joint_edge(const Mesh& mesh);
-  SeismicMedium medium() const { return {{scene_.stiffness.c12, scene_.stiffness.c66}, scene_.thickness}; }
+  SeismicMedium medium() const;
   void cut_cracks();
   void unbond_joints();
   void wet_joints();
@@ -191,6 +225,7 @@ class Simulation {
   void insert_stressed();
   void begin_damage();
   void crack_stressed();
+  /// @param material of a joint; 0: that of the rock round each
   void insert(const std::vector<Index>& edges, std::uint16_t material = 0);
   void insert_joints();
   Energies potential_energies() const;
@@ -199,6 +234,7 @@ class Simulation {
   [[noreturn]] void stop_not_finite() const;
 
   Scene scene_;
+  EdgeMaterials materials_;
   State state_;
   Bulk bulk_;
   std::optional<Cohesive> cohesive_;

@@ -56,6 +56,7 @@ class Tiles {
   struct Scratch;
   struct Reads;
 
+  void sort_by_material(const Bulk& bulk, Index i);
   void number_nodes(const State& state, Index i);
   void number_corners(const State& state, const Bulk& bulk, Index i);
   void list_elements(const State& state, const Cohesive* cohesive, Index i);

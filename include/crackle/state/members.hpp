@@ -210,6 +210,7 @@ void members(State& s, V&& v) {
   v("displacement", s.displacement);
   v("velocity", s.velocity);
   v("inverse_mass", s.inverse_mass);
+  v("density", s.density);
   v("strain_rate", s.strain_rate);
   v("cohesive", s.cohesive);
   v("element_on_side", s.element_on_side);

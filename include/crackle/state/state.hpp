@@ -189,6 +189,7 @@ struct State {
   std::vector<double> inverse_mass;  ///< [m/kg]; 0: fixed
 
   // triangles
+  std::vector<double> density;    ///< [kg/m3]; empty: the same in all
   std::vector<Sym2> strain_rate;  ///< of the last evaluation [1/s]; empty without viscosity
 
   CohesiveElements cohesive;
@@ -222,8 +223,10 @@ State make_split_state(std::shared_ptr<const Mesh> mesh);
 /// A state at rest with one node a vertex: every interior edge is tied.
 State make_tied_state(std::shared_ptr<const Mesh> mesh);
 
-/// Lumps the mass of every triangle to its corners, a third each. @param density [kg/m3]
+/// Lumps the mass of every triangle to its corners, a third each. @param density [kg/m3], of all triangles
 void set_mass(State& state, double density);
+/// @param density of each triangle, which the state keeps
+void set_mass(State& state, std::vector<double> density);
 
 /// Holds all nodes on edges of that kind (inverse mass 0).
 void fix_nodes(State& state, EdgeKind kind);
@@ -243,8 +246,9 @@ struct Parting {
 /// Adds cohesive elements, without a history yet, on tied interior edges of a state that was made tied,
 /// and parts the nodes at their ends: mass goes with the corners, displacement and velocity are
 /// copied, so mass and momentum are the same to round-off.
-/// @param edges in ascending order @return nodes that parted, by vertex
-std::vector<Parting> insert_elements(State& state, std::span<const Index> edges, std::uint16_t material);
+/// @param edges in ascending order @param material number of each @return nodes that parted, by vertex
+std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
+                                     std::span<const std::uint16_t> material);
 
 /// Kinetic energy [J/m] of the four corners at the faces of a cohesive element, each with its third of its
 /// triangle's mass: the same however many corners move together as a node. Fixed nodes count nothing.

@@ -44,7 +44,7 @@ Condensation::Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, c
         const Index column = equation_[2 * at(v[j]) + b];
         if (column < 0) continue;
         for (std::size_t i = 0; i < 3; ++i) {
-          const Vec2 force = bulk_.area(t) * element_force(bulk_.stiffness(), g[i], g[j], axis[b]);
+          const Vec2 force = bulk_.area(t) * element_force(bulk_.stiffness(t), g[i], g[j], axis[b]);
           for (std::size_t a = 0; a < 2; ++a) {
             const Index row = equation_[2 * at(v[i]) + a];
             if (row >= column) entries.emplace_back(row, column, dot(force, axis[a]));
@@ -67,7 +67,7 @@ double Condensation::overlap(const JumpUnknown& a, const JumpUnknown& b) const {
     if (!std::binary_search(b.triangles.begin(), b.triangles.end(), t)) continue;
     const auto g = bulk_.shape_gradients(t);
     const auto& v = mesh_->triangles[at(t)];
-    sum += bulk_.area(t) * dot(a.direction, element_force(bulk_.stiffness(), g[corner_of(v, a.vertex)],
+    sum += bulk_.area(t) * dot(a.direction, element_force(bulk_.stiffness(t), g[corner_of(v, a.vertex)],
                                                           g[corner_of(v, b.vertex)], b.direction));
   }
   return sum;
@@ -81,7 +81,7 @@ void Condensation::append(const JumpUnknown& unknown) {
     const auto& v = mesh_->triangles[at(t)];
     const Vec2 moved = g[corner_of(v, unknown.vertex)];
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 f = bulk_.area(t) * element_force(bulk_.stiffness(), g[i], moved, unknown.direction);
+      const Vec2 f = bulk_.area(t) * element_force(bulk_.stiffness(t), g[i], moved, unknown.direction);
       for (std::size_t a = 0; a < 2; ++a) {
         const Index row = equation_[2 * at(v[i]) + a];
         if (row < 0) continue;

@@ -94,6 +94,7 @@ Tiles::Tiles(const State& state, const Physics& physics)
   tiles::for_each_tile(tiles_.size(), [&](Index i) {
     tiles_[at(i)].begin = i * block_size;
     tiles_[at(i)].end = std::min(state.mesh->triangle_count(), (i + 1) * block_size);
+    sort_by_material(physics.bulk, i);
     number_nodes(state, i);
     number_corners(state, physics.bulk, i);
     list_elements(state, physics.cohesive, i);
@@ -108,6 +109,27 @@ Tiles::Tiles(const State& state, const Physics& physics)
     }
   }
   use_large_pages(arrays);
+}
+
+void Tiles::sort_by_material(const Bulk& bulk, Index i) {
+  Tile& tile = tiles_[at(i)];
+  std::vector<std::vector<Index>> of(bulk.materials().size());
+  for (Index t = tile.begin; t < tile.end; ++t) of[bulk.number(t)].push_back(t - tile.begin);
+  int first = 0;
+  for (std::size_t m = 0; m < of.size(); ++m) {
+    if (of[m].empty()) continue;
+    tile.rocks.push_back({static_cast<std::uint16_t>(m), first, groups_of(of[m].size())});
+    first += tile.rocks.back().groups;
+  }
+  if (tile.rocks.size() == 1) return;
+  tile.places.resize(at(tile.end - tile.begin));
+  for (const Tile::Batch& rock : tile.rocks) {
+    const std::vector<Index>& triangles = of[rock.material];
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      const Place p = place_of(static_cast<Index>(k), rock.groups);
+      tile.places[at(triangles[k])] = {rock.first + p.group, p.lane};
+    }
+  }
 }
 
 void Tiles::number_nodes(const State& state, Index i) {
@@ -143,42 +165,41 @@ void Tiles::number_corners(const State& state, const Bulk& bulk, Index i) {
   Tile& tile = tiles_[at(i)];
   const int groups = tile.groups();
   tile.corners.resize(at(3 * lanes * groups));
-  tile.sides.resize(at(4 * groups));
+  // What no triangle fills: one of the nodes that stand for none.
+  for (Index k = 0; k < 3 * lanes * groups; ++k) tile.corners[at(k)] = tile.dummy(k / lanes % 3);
+  tile.sides.assign(at(4 * groups), {});
+  for (Index g = 0; g < groups; ++g) {
+    for (const Index component : {0, 3}) tile.sides[at(4 * g + component)].lane.fill(1.0);
+  }
   tile.damaged.clear();
   if (bulk.viscous()) tile.viscosity.assign(at(groups), {});
   bool uniform = true;
   for (Index t = tile.begin; t < tile.end; ++t)
     uniform = uniform && bulk.in_situ(t) == bulk.in_situ(tile.begin);
   if (!uniform) tile.in_situ.assign(at(3 * groups), {});
-  for (Index t = 0; t < groups * lanes; ++t) {
-    const Place p = place_of(t, groups);
-    bool real = t < tile.end - tile.begin;
-    const Index number =
-        real && !state.damage.of_triangle.empty() ? state.damage.of_triangle[at(tile.begin + t)] : -1;
+  for (Index t = 0; t < tile.end - tile.begin; ++t) {
+    const Place p = tile.place(t);
+    const Index first = 3 * (tile.begin + t);
+    const Index* nodes = &state.node_of_corner[at(first)];
+    const Index number = state.damage.of_triangle.empty() ? -1 : state.damage.of_triangle[at(tile.begin + t)];
     if (number >= 0) {
-      const Index* nodes = &state.node_of_corner[at(3 * (tile.begin + t))];
       tile.damaged.push_back({number, {tile.name(nodes[0]), tile.name(nodes[1]), tile.name(nodes[2])}});
-      real = false;
+      continue;
     }
-    for (Index k = 0; k < 3; ++k) {
-      tile.corners[at((3 * p.group + k) * lanes + p.lane)] =
-          real ? tile.name(state.node_of_corner[at(3 * (tile.begin + t) + k)]) : tile.dummy(k);
+    for (Index k = 0; k < 3; ++k) tile.corners[at((3 * p.group + k) * lanes + p.lane)] = tile.name(nodes[k]);
+    for (Index k = 1; k < 3; ++k) {
+      const Vec2 side = state.reference(first + k) - state.reference(first);
+      tile.sides[at(4 * p.group + 2 * k - 2)].lane[at(p.lane)] = side.x;
+      tile.sides[at(4 * p.group + 2 * k - 1)].lane[at(p.lane)] = side.y;
     }
-    std::array<Vec2, 2> sides{{{1.0, 0.0}, {0.0, 1.0}}};
-    for (Index k = 1; k < 3 && real; ++k) {
-      const Index corner = 3 * (tile.begin + t);
-      sides[at(k - 1)] = state.reference(corner + k) - state.reference(corner);
-    }
-    const std::array<double, 4> components{sides[0].x, sides[0].y, sides[1].x, sides[1].y};
-    for (std::size_t k = 0; k < 4; ++k) tile.sides[at(4 * p.group) + k].lane[at(p.lane)] = components[k];
-    if (real && !uniform) {
+    if (!uniform) {
       const Sym2 stress = bulk.in_situ(tile.begin + t);
       tiles::Row* rows = &tile.in_situ[at(3 * p.group)];
       rows[0].lane[at(p.lane)] = stress.xx;
       rows[1].lane[at(p.lane)] = stress.yy;
       rows[2].lane[at(p.lane)] = stress.xy;
     }
-    if (real && bulk.viscous()) tile.viscosity[at(p.group)].lane[at(p.lane)] = bulk.viscosity(tile.begin + t);
+    if (bulk.viscous()) tile.viscosity[at(p.group)].lane[at(p.lane)] = bulk.viscosity(tile.begin + t);
   }
 }
 

@@ -52,7 +52,7 @@ struct Tiles::Tile {
     Index element;
     std::array<std::uint16_t, 4> ends;
   };
-  struct Batch {  // elements of one material
+  struct Batch {  // triangles or elements of one material
     std::uint16_t material;
     int first, groups;  // of the groups
   };
@@ -63,6 +63,8 @@ struct Tiles::Tile {
   Index count = 0;                     // so many
   std::vector<tiles::Run> own;         // those of them that no other tile has a part in
   std::vector<std::uint16_t> shared;   // numbers in the tile of the rest
+  std::vector<Batch> rocks;            // its triangles, by material
+  std::vector<tiles::Place> places;    // of the triangles, where there are several materials
   std::vector<std::uint16_t> corners;  // [group][corner][lane]
   std::vector<tiles::Row> sides;       // [group][from corner 0 to 1, to 2: x y x y], reference
   std::vector<Damaged> damaged;        // fill up their groups like triangles that are not there
@@ -80,7 +82,16 @@ struct Tiles::Tile {
   std::vector<std::uint16_t> parts;  // of each
   std::vector<const Vec2*> part;
 
-  int groups() const { return tiles::groups_of(static_cast<std::size_t>(end - begin)); }
+  int groups() const { return rocks.back().first + rocks.back().groups; }
+  /// @param t counted from the tile's first triangle
+  tiles::Place place(Index t) const {
+    return places.empty() ? tiles::place_of(t, groups()) : places[static_cast<std::size_t>(t)];
+  }
+  template <class Work>
+  void for_each_triangle(const Work& work) const {
+    if (places.empty()) return tiles::for_each_place(end - begin, groups(), work);
+    for (Index t = 0; t < end - begin; ++t) work(t, places[static_cast<std::size_t>(t)]);
+  }
   int element_groups() const { return static_cast<int>(elements.size()) / tiles::lanes; }
   // Twice the number of a node in the tile.
   std::uint16_t name(Index node) const { return static_cast<std::uint16_t>(2 * local(node)); }

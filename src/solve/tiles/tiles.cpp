@@ -20,9 +20,10 @@ double* numbers(std::vector<Vec2>& v) { return &v.front().x; }
 struct Tiles::Scratch {
   static constexpr std::size_t most = 9 * block_size + tiles::dummies;
   alignas(64) std::array<double, 2 * most> displacement, velocity, force;
-  alignas(64) std::array<double, 3 * block_size> strain_rate;
+  // A tile of many rocks may have a triangle a group.
+  alignas(64) std::array<double, 3 * lanes * block_size> strain_rate;
   alignas(64) std::array<double, lanes> power;
-  alignas(64) std::array<std::uint8_t, block_size> stressed;
+  alignas(64) std::array<std::uint8_t, lanes * block_size> stressed;
   alignas(64) std::array<std::uint8_t, 4 * block_size> near;
 };
 
@@ -56,16 +57,15 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   std::fill_n(s.force.begin(), nodes_end + 2 * tiles::dummies, 0.0);
 
   const int groups = tile.groups();
-  const Index triangles = tile.end - tile.begin;
   tiles::RockWork rock{.groups = groups,
                        .corners = tile.corners.data(),
                        .sides = tile.sides.front().lane.data(),
                        .displacement = s.displacement.data(),
                        .force = s.force.data(),
-                       .stiffness = bulk.stiffness(),
+                       .stiffness = {},
                        .in_situ = bulk.in_situ(tile.begin),
                        .in_situ_rows = tile.in_situ.empty() ? nullptr : tile.in_situ.front().lane.data(),
-                       .weight = bulk.weight(),
+                       .weight = 0.0,
                        .velocity = nullptr,
                        .viscosity = nullptr,
                        .strain_rate = nullptr,
@@ -82,8 +82,8 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   rock.ahead = {ranges, ranges + half, lines};
   if (bulk.viscous()) {
     load(state.velocity, s.velocity);
-    s.strain_rate.fill(0.0);
-    tiles::for_each_place(triangles, groups, [&](Index t, Place p) {
+    std::fill_n(s.strain_rate.begin(), 3 * lanes * groups, 0.0);
+    tile.for_each_triangle([&](Index t, Place p) {
       double* rate = s.strain_rate.data() + 3 * lanes * p.group + p.lane;
       const Sym2 last = state.strain_rate[at(tile.begin + t)];
       rate[0] = last.xx;
@@ -96,19 +96,34 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
     rock.strain_rate = s.strain_rate.data();
     rock.power = s.power.data();
   }
-  kernels.rock(rock);
+  for (const Tile::Batch& batch : tile.rocks) {
+    tiles::RockWork part = rock;
+    part.groups = batch.groups;
+    part.stiffness = bulk.materials()[batch.material].stiffness;
+    part.weight = bulk.materials()[batch.material].in_situ.gradient.yy;
+    part.corners += 3 * lanes * batch.first;
+    part.sides += 4 * lanes * batch.first;
+    if (part.in_situ_rows != nullptr) part.in_situ_rows += 3 * lanes * batch.first;
+    if (part.velocity != nullptr) {
+      part.viscosity += lanes * batch.first;
+      part.strain_rate += 3 * lanes * batch.first;
+    }
+    if (part.stressed != nullptr) part.stressed += lanes * batch.first;
+    if (batch.first > 0) part.ahead = {};
+    kernels.rock(part);
+  }
   if (bulk.viscous()) {
     double power = 0.0;
     for (const double p : s.power) power += p;
     power_[at(i)] = power;
-    tiles::for_each_place(triangles, groups, [&](Index t, Place p) {
+    tile.for_each_triangle([&](Index t, Place p) {
       const double* rate = s.strain_rate.data() + 3 * lanes * p.group + p.lane;
       state.strain_rate[at(tile.begin + t)] = {rate[0], rate[lanes], rate[2 * lanes]};
     });
   }
   if (!stressed.empty()) {
     char any = 0;
-    tiles::for_each_place(triangles, groups, [&](Index t, Place p) {
+    tile.for_each_triangle([&](Index t, Place p) {
       const std::uint8_t mark = s.stressed[at(lanes * p.group + p.lane)] & 1;
       stressed[at(tile.begin + t)] = mark;
       any |= static_cast<char>(mark);

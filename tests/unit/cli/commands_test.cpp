@@ -163,6 +163,58 @@ TEST_F(Commands, JointsOfAMeshFileAreKnownByTheirSet) {
   }
 }
 
+TEST_F(Commands, LayersAreMeshedAndRun) {
+  const std::string text = with("end_time = \"0.9 ms\"", "end_time = \"0.05 ms\"") + R"(
+[[layers]]
+bottom = "0.1 m"
+top = "0.25 m"
+young_modulus = "20 GPa"
+stress_xx = "-3 MPa"
+[[layers]]
+top = "-0.15 m"
+dip = "10 deg"
+young_modulus = "50 GPa"
+tensile_strength = "2 MPa"
+)";
+  const std::string file = write("layers.toml", text);
+  const Outcome drawn = crackle({"mesh", file, "-o", path("a.vtu")});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_THAT(drawn.out, AllOf(HasSubstr("in layers.0"), HasSubstr("in layers.1")));
+  EXPECT_THAT(read_text(path("a.vtu")), HasSubstr("layer"));
+  EXPECT_THAT(crackle({"check", "-j", "1", file}).out, HasSubstr("layers.1.young_modulus"));
+  const std::string bonded = R"(interface = "bonded"
+interface_tensile_strength = "1 MPa"
+interface_cohesion = "5 MPa"
+interface_friction_angle = "30 deg"
+interface_fracture_energy_mode1 = "2 J/m2"
+interface_fracture_energy_mode2 = "20 J/m2"
+)";
+  for (const char* insertion : {"all", "on_demand", "none"}) {
+    for (const std::string& interface : {std::string(), bonded}) {
+      const std::string out = path(insertion + std::to_string(interface.size()));
+      const Outcome ran = crackle({"run", write("layers.toml", text + interface), "-o", out, "-q", "-j", "1",
+                                   "--set", std::string("cohesive.insertion=") + insertion});
+      ASSERT_EQ(ran.code, 0) << ran.err;
+      EXPECT_THAT(read_text(out + "/resolved.toml"), HasSubstr("[[layers]]"));
+    }
+  }
+  // the same layers in a mesh from a file, which follows them; and in one that does not
+  ASSERT_EQ(crackle({"mesh", write("layers.toml", text), "-o", path("a.msh")}).code, 0);
+  ASSERT_EQ(crackle({"mesh", write("plain.toml", good_case), "-o", path("b.msh")}).code, 0);
+  const auto from = [&](const char* mesh) {
+    std::string moved = text;
+    const std::string size = "size_fine = \"15 mm\"";
+    moved.replace(moved.find(size), size.size(), size + "\nfile = \"" + mesh + "\"");
+    return crackle({"check", "-j", "1", write("file.toml", moved)});
+  };
+  EXPECT_THAT(from("a.msh").out, HasSubstr("in layers.1"));
+  expect_refusal(from("b.msh"), 3, "on both sides of an interface of layers.");
+  expect_refusal(crackle({"check", write("over.toml", text + "[[layers]]\nbottom = \"0.2 m\"\n")}), 3,
+                 "layers.0 and layers.2 overlap");
+  expect_refusal(crackle({"check", write("far.toml", text + "[[layers]]\nbottom = \"20 m\"\n")}), 3,
+                 "layers.2 has no triangle");
+}
+
 TEST_F(Commands, MeshFollowsItsSeed) {
   const std::string file = write("good.toml", good_case);
   for (const char* seed : {"1", "2"}) {

@@ -98,7 +98,7 @@ TEST(State, InsertedEdgesPartNodesIntoTiedFans) {
   for (const Index e : edges) {
     const Index nodes = state.node_count();
     Index fresh = 0;
-    for (const Parting& p : insert_elements(state, std::array{e}, 0)) {
+    for (const Parting& p : insert_elements(state, std::array{e}, std::array<std::uint16_t, 1>{})) {
       fresh += static_cast<Index>(p.nodes.size()) - 1;
       for (const Index n : p.nodes) EXPECT_EQ(state.node_reference(n), state.mesh->vertices[at(p.vertex)]);
     }
@@ -136,8 +136,8 @@ TEST(State, ALoneEdgeFreesNothing) {
     for (const Index f : granite::edges_of_kind(mesh, EdgeKind::interior)) {
       const auto [a, b] = mesh.edges[at(f)].vertex;
       if (f == e || (a != middle && b != middle) || !interior_vertex(a == middle ? b : a)) continue;
-      EXPECT_TRUE(insert_elements(state, std::array{e}, 0).empty());
-      const auto partings = insert_elements(state, std::array{f}, 0);
+      EXPECT_TRUE(insert_elements(state, std::array{e}, std::array<std::uint16_t, 1>{}).empty());
+      const auto partings = insert_elements(state, std::array{f}, std::array<std::uint16_t, 1>{});
       ASSERT_EQ(partings.size(), 1u);
       EXPECT_EQ(partings[0].vertex, middle);
       EXPECT_EQ(partings[0].nodes.size(), 2u);
@@ -156,7 +156,7 @@ TEST(State, EnergyAtTheFacesIsThatOfTheirCorners) {
     if (tied.mesh->edges[at(e)].kind == EdgeKind::interior && e % 7 == 0) edges.push_back(e);
   }
   set_mass(tied, 2500.0);
-  insert_elements(tied, edges, 0);
+  insert_elements(tied, edges, std::vector<std::uint16_t>(edges.size()));
   set_mass(split, 2500.0);
   for (State* state : {&split, &tied}) {
     for (Index n = 0; n < state->node_count(); ++n) {
