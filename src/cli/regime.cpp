@@ -64,6 +64,7 @@ void check(const Case& scene) {
   const auto require = [&](bool holds, const std::string& what) { require_quasi_static(holds, scene, what); };
   require(scene.fracture.notch > 0.0, "it starts from a fracture: give fracture.notch");
   require(scene.mesh.file.empty(), "meshes from a file are not yet taken");
+  require(scene.layers.empty(), "layers are not yet taken");
   require(scene.notches.empty(), "[[notches]] are not yet taken, give fracture.notch");
   require(scene.loads.empty(), "[[loads]] are not yet taken");
   require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&

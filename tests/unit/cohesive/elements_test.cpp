@@ -111,7 +111,7 @@ TEST(CohesiveElement, WhatInsertionGaveIsPaidBackByBreaking) {
     while (mesh->edges[static_cast<std::size_t>(edge)].triangle[1] < 0) ++edge;
     const bool upper_is_a = mesh->edges[static_cast<std::size_t>(edge)].triangle[0] == 0;
     for (double& m : state.inverse_mass) m = 0.0;  // held: the element bears what the stress asks
-    cohesive.insert(state, {{edge}}, {{120e9}}, 0, rock, [](Index) { return Vec2{}; });
+    cohesive.insert(state, {{edge}}, {{120e9}}, {{0}}, rock, [](Index) { return Vec2{}; });
     const auto force = [&] {
       const EndForces& f = state.cohesive.force[0];
       return (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1);
