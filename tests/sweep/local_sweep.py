@@ -19,6 +19,7 @@ check("10 waiting" in sweep("status", tiny.folder), "nothing has run yet")
 first = subprocess.Popen(["/usr/bin/python3", str(SWEEP), "local", str(tiny.folder), "--cores", "2"],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 tiny.wait_for(LONG_RUN, ("running", "done"))
+os.kill(tiny.status(LONG_RUN)["process"], signal.SIGSTOP)  # it would end before it is asked about
 check(f"{LONG_RUN}: running" in sweep("status", tiny.folder), "it is seen to run")
 check("under way" in sweep("row", tiny.folder, LONG_RUN, code=1), "and is not run twice at a time")
 os.kill(tiny.status(LONG_RUN)["process"], signal.SIGKILL)
