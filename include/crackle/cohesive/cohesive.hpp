@@ -75,9 +75,8 @@ class Cohesive {
                             const CornerForce& load) const;
 
   /// How near an edge of a material is to its strength under a stress, 1 at the strength:
-  /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param material that of the rock, not of the plane @param along the edge,
-  /// unit
-  static double utilisation(const CohesiveMaterial& material, Sym2 stress, Vec2 along);
+  /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param rock its material, not that of the plane @param along the edge, unit
+  static double utilisation(const CohesiveMaterial& rock, Sym2 stress, Vec2 along);
   /// The same of the most loaded point of an element; 1 or more once it is damaged.
   double utilisation(const State& state, const CohesiveHistory& history) const;
 

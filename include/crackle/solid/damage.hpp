@@ -96,7 +96,7 @@ double oliver_length(const std::array<Vec2, 3>& gradients, Vec2 normal);
 double chord_length(const std::array<Vec2, 3>& corners, Vec2 normal);
 
 /// Longest element length [m] that softening can follow, across the crack and along it.
-std::array<double, 2> size_limits(const DamageMaterial& material, const SofteningLaw& law,
+std::array<double, 2> size_limits(const DamageMaterial& rock, const SofteningLaw& law,
                                   const PlaneStiffness& stiffness, Vec2 normal);
 
 /// Damaged triangles of a body.

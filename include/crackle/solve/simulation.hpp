@@ -92,7 +92,10 @@ struct Scene : RockMass {
   double slip_rate = 1e-2;    ///< at which the slip of a joint is an event [m/s]
   bool breaks() const { return law != nullptr || damage.law != nullptr; }
   /// Of a layer by its number, as in layer_of_triangle.
-  const RockMass& rock(std::size_t layer) const { return layer == 0 ? *this : layers[layer - 1]; }
+  const RockMass& rock(std::size_t layer) const {
+    if (layer == 0) return *this;
+    return layers[layer - 1];
+  }
   const RockMass& rock_of(Index triangle) const {
     return rock(layer_of_triangle.empty() ? 0 : layer_of_triangle[static_cast<std::size_t>(triangle)]);
   }
