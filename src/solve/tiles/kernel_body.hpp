@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Body of kernel_*.cpp, which set CRACKLE_LEVEL and the compiler's flags. Everything here is inlined: nothing
-// that is compiled for one level may be linked into another, so nothing of the standard library is used.
+// Body of kernel_*.cpp, which set CRACKLE_LEVEL, CRACKLE_WIDTH (how many of a group's eight lanes the
+// processor takes at a time: of a longer vector the compiler takes comparisons apart number by number) and
+// the compiler's flags. Everything here is inlined: nothing that is compiled for one level may be linked into
+// another, so nothing of the standard library is used.
 #include "kernel.hpp"
 
 #ifndef CRACKLE_LEVEL
@@ -11,12 +13,16 @@
 namespace crackle::tiles {
 namespace {
 
-using V = double __attribute__((vector_size(64)));
+constexpr int width = CRACKLE_WIDTH;
+constexpr int parts = lanes / width;  // of a group
+
+using V = double __attribute__((vector_size(8 * width)));
+using V8 = double __attribute__((vector_size(64)));
 using V4 = double __attribute__((vector_size(32), aligned(8), may_alias));
 using V2 = double __attribute__((vector_size(16), aligned(16), may_alias));
 using Pairs4 = double __attribute__((vector_size(64), aligned(16), may_alias));  // of four nodes
-using Row = double __attribute__((vector_size(64), aligned(64), may_alias));
-using Bytes = std::uint8_t __attribute__((vector_size(8), aligned(8), may_alias));
+using Row = double __attribute__((vector_size(8 * width), aligned(8 * width), may_alias));
+using Bytes = std::uint8_t __attribute__((vector_size(width), aligned(width), may_alias));
 
 #define CRACKLE_INLINE [[gnu::always_inline]] inline
 
@@ -31,8 +37,8 @@ CRACKLE_INLINE void put_mask(std::uint8_t* p, Mask mask) {
 }
 
 CRACKLE_INLINE V4 four(const double* p) { return *reinterpret_cast<const V4*>(p); }
-CRACKLE_INLINE V pairs(const double* p) { return *reinterpret_cast<const Pairs4*>(p); }
-CRACKLE_INLINE void put_pairs(double* p, V v) { *reinterpret_cast<Pairs4*>(p) = v; }
+CRACKLE_INLINE V8 pairs(const double* p) { return *reinterpret_cast<const Pairs4*>(p); }
+CRACKLE_INLINE void put_pairs(double* p, V8 v) { *reinterpret_cast<Pairs4*>(p) = v; }
 CRACKLE_INLINE void put_two(double* p, V2 v) { *reinterpret_cast<V2*>(p) = v; }
 
 struct Pairs {
@@ -40,21 +46,39 @@ struct Pairs {
 };
 
 CRACKLE_INLINE Pairs gather(const double* p, const std::uint16_t* n) {
+#if CRACKLE_WIDTH == 2
+  const V low = two(p + index(n[0])), high = two(p + index(n[1]));
+  return {__builtin_shufflevector(low, high, 0, 2), __builtin_shufflevector(low, high, 1, 3)};
+#else
   const auto both = [&](int k) {
     return __builtin_shufflevector(two(p + index(n[k])), two(p + index(n[k + 1])), 0, 1, 2, 3);
   };
+#if CRACKLE_WIDTH == 4
+  const V low = both(0), high = both(2);
+  return {__builtin_shufflevector(low, high, 0, 2, 4, 6), __builtin_shufflevector(low, high, 1, 3, 5, 7)};
+#else
   const V low = __builtin_shufflevector(both(0), both(2), 0, 1, 2, 3, 4, 5, 6, 7);
   const V high = __builtin_shufflevector(both(4), both(6), 0, 1, 2, 3, 4, 5, 6, 7);
   return {__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14),
           __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15)};
+#endif
+#endif
 }
 
-// Eight forces, lane after lane, in pairs of lanes.
+// Forces, lane after lane, in pairs of lanes.
 struct Spread {
-  alignas(64) double even[lanes], odd[lanes];
+  alignas(64) double even[width], odd[width];
   CRACKLE_INLINE Spread(V x, V y) {
+#if CRACKLE_WIDTH == 2
+    put(even, __builtin_shufflevector(x, y, 0, 2));
+    put(odd, __builtin_shufflevector(x, y, 1, 3));
+#elif CRACKLE_WIDTH == 4
+    put(even, __builtin_shufflevector(x, y, 0, 4, 2, 6));
+    put(odd, __builtin_shufflevector(x, y, 1, 5, 3, 7));
+#else
     put(even, __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14));
     put(odd, __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15));
+#endif
   }
   CRACKLE_INLINE V2 operator[](int lane) const { return two((lane % 2 ? odd : even) + (lane & ~1)); }
 };
@@ -81,14 +105,16 @@ class Fetch {
 
 template <bool viscous, bool screened>
 CRACKLE_INLINE void rock_groups(const RockWork& w) {
-  V power = viscous ? row(w.power) : V{};
+  V power[parts] = {};
+  for (int part = 0; viscous && part < parts; ++part) power[part] = row(w.power + width * part);
   Fetch fetch(w.ahead);
-  for (int g = 0; g < w.groups; ++g) {
-    fetch.some();
-    const std::uint16_t* n = w.corners + 3 * lanes * g;
+  for (int k = 0; k < parts * w.groups; ++k) {
+    const int g = k / parts, part = k % parts, lane = width * part;
+    if (part == 0) fetch.some();
+    const std::uint16_t* n = w.corners + 3 * lanes * g + lane;
     const Pairs u0 = gather(w.displacement, n), u1 = gather(w.displacement, n + lanes),
                 u2 = gather(w.displacement, n + 2 * lanes);
-    const double* sides = w.sides + 4 * lanes * g;
+    const double* sides = w.sides + 4 * lanes * g + lane;
     const V e1x = row(sides), e1y = row(sides + lanes), e2x = row(sides + 2 * lanes),
             e2y = row(sides + 3 * lanes);
     const V twice = e1x * e2y - e1y * e2x;
@@ -97,22 +123,22 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
     const auto h = triangle::gradient(shape, u1.x - u0.x, u1.y - u0.y, u2.x - u0.x, u2.y - u0.y);
     auto s = triangle::stress(w.stiffness, triangle::green_strain(h));
     if (w.in_situ_rows != nullptr) {
-      const double* in_situ = w.in_situ_rows + 3 * lanes * g;
+      const double* in_situ = w.in_situ_rows + 3 * lanes * g + lane;
       s = {s.xx + row(in_situ), s.yy + row(in_situ + lanes), s.xy + row(in_situ + 2 * lanes)};
     } else {
       s = {s.xx + w.in_situ.xx, s.yy + w.in_situ.yy, s.xy + w.in_situ.xy};
     }
-    if constexpr (screened) put_mask(w.stressed + lanes * g, triangle::passes(w.screen, s));
+    if constexpr (screened) put_mask(w.stressed + lanes * g + lane, triangle::passes(w.screen, s));
     const V area = 0.5 * twice;
     if constexpr (viscous) {
       const Pairs v0 = gather(w.velocity, n), v1 = gather(w.velocity, n + lanes),
                   v2 = gather(w.velocity, n + 2 * lanes);
       const auto rate = triangle::strain_rate(
           h, triangle::gradient(shape, v1.x - v0.x, v1.y - v0.y, v2.x - v0.x, v2.y - v0.y));
-      double* last = w.strain_rate + 3 * lanes * g;
+      double* last = w.strain_rate + 3 * lanes * g + lane;
       const triangle::Tensor<V> before{row(last), row(last + lanes), row(last + 2 * lanes)};
-      const V viscosity = row(w.viscosity + lanes * g);
-      power += triangle::viscous_power(area, viscosity, rate, before);
+      const V viscosity = row(w.viscosity + lanes * g + lane);
+      power[part] += triangle::viscous_power(area, viscosity, rate, before);
       put(last, rate.xx);
       put(last + lanes, rate.yy);
       put(last + 2 * lanes, rate.xy);
@@ -122,13 +148,13 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
     const V weight = (w.weight / 3.0) * area;
     const Spread f0(-f.x1 - f.x2, -f.y1 - f.y2 + weight), f1(f.x1, f.y1 + weight), f2(f.x2, f.y2 + weight);
 #pragma GCC unroll 8
-    for (int l = 0; l < lanes; ++l) {
+    for (int l = 0; l < width; ++l) {
       add(w.force, n[l], f0[l]);
       add(w.force, n[lanes + l], f1[l]);
       add(w.force, n[2 * lanes + l], f2[l]);
     }
   }
-  if constexpr (viscous) put(w.power, power);
+  for (int part = 0; viscous && part < parts; ++part) put(w.power + width * part, power[part]);
 }
 
 }  // namespace
@@ -142,7 +168,7 @@ void copy(const CopyWork& w) {
     const double* from = w.from + 2 * static_cast<std::ptrdiff_t>(run->node);
     double* to = w.to + 2 * run->local;
     int k = 0;
-    for (; k + 4 <= run->count; k += 4) put_pairs(to + 2 * k, pairs(from + 2 * k));
+    for (; width == 8 && k + 4 <= run->count; k += 4) put_pairs(to + 2 * k, pairs(from + 2 * k));
     for (; k < run->count; ++k) put_two(to + 2 * k, two(from + 2 * k));
   }
 }
@@ -153,10 +179,10 @@ void move(const MoveWork& w) {
     const double *mobility = w.inverse_mass + node, *force = w.force + 2 * run->local;
     double *velocity = w.velocity + 2 * node, *displacement = w.displacement + 2 * node;
     int k = 0;
-    for (; k + 4 <= run->count; k += 4) {
+    for (; width == 8 && k + 4 <= run->count; k += 4) {
       const V4 m = w.dt * four(mobility + k);
-      const V v = pairs(velocity + 2 * k) +
-                  __builtin_shufflevector(m, m, 0, 0, 1, 1, 2, 2, 3, 3) * pairs(force + 2 * k);
+      const V8 v = pairs(velocity + 2 * k) +
+                   __builtin_shufflevector(m, m, 0, 0, 1, 1, 2, 2, 3, 3) * pairs(force + 2 * k);
       put_pairs(velocity + 2 * k, v);
       put_pairs(displacement + 2 * k, pairs(displacement + 2 * k) + w.dt * v);
     }
@@ -178,12 +204,13 @@ void rock(const RockWork& w) {
 
 void elements(const ElementWork& w) {
   Fetch fetch(w.ahead);
-  for (int g = 0; g < w.groups; ++g) {
-    fetch.some();
-    const std::uint16_t* n = w.ends + 4 * lanes * g;
+  for (int k = 0; k < parts * w.groups; ++k) {
+    const int g = k / parts, lane = width * (k % parts);
+    if (lane == 0) fetch.some();
+    const std::uint16_t* n = w.ends + 4 * lanes * g + lane;
     const Pairs a0 = gather(w.displacement, n), a1 = gather(w.displacement, n + lanes),
                 b0 = gather(w.displacement, n + 2 * lanes), b1 = gather(w.displacement, n + 3 * lanes);
-    const double* numbers = w.numbers + 7 * lanes * g;
+    const double* numbers = w.numbers + 7 * lanes * g + lane;
     const V inverse_length = row(numbers), dx = row(numbers + lanes), dy = row(numbers + 2 * lanes);
     const ElasticElement<V> e{b0.x - a0.x,
                               b0.y - a0.y,
@@ -199,16 +226,16 @@ void elements(const ElementWork& w) {
                               row(numbers + 6 * lanes)};
     ElasticForces<V> f;
     if (w.limit_rows != nullptr) {
-      const double* limits = w.limit_rows + 3 * lanes * g;
+      const double* limits = w.limit_rows + 3 * lanes * g + lane;
       f = elastic_forces(e, ElasticLimits<V>{w.limits.penalty + V{}, row(limits), row(limits + lanes),
                                              row(limits + 2 * lanes), w.limits.curvature});
     } else {
       f = elastic_forces(e, w.limits);
     }
-    put_mask(w.near + lanes * g, f.beyond > 0.0);
+    put_mask(w.near + lanes * g + lane, f.beyond > 0.0);
     const Spread end0(f.x0, f.y0), end1(f.x1, f.y1);
 #pragma GCC unroll 8
-    for (int l = 0; l < lanes; ++l) {
+    for (int l = 0; l < width; ++l) {
       add(w.force, n[l], end0[l]);
       add(w.force, n[lanes + l], end1[l]);
       add(w.force, n[2 * lanes + l], -end0[l]);
