@@ -13,8 +13,8 @@
 namespace crackle::tiles {
 namespace {
 
-constexpr int width = CRACKLE_WIDTH;
-constexpr int parts = lanes / width;  // of a group
+inline constexpr int width = CRACKLE_WIDTH;
+inline constexpr int parts = lanes / width;  // of a group
 
 using V = double __attribute__((vector_size(8 * width)));
 using V8 = double __attribute__((vector_size(64)));
