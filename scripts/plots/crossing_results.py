@@ -184,4 +184,4 @@ def make(runs, folder):
 
 
 if __name__ == "__main__":
-    gallery.main("crossing", make, __doc__)
+    results_page.main("crossing", make, __doc__)

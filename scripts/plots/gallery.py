@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the figures of the gallery's cases share: the methods, crack paths and directions, closed forms."""
 
-import argparse
 import math
-import pathlib
-import sys
 
 import numpy as np
 
 import look
 import results_page
-from run_data import RunError
 
 METHODS = {"demand": "cohesive edges on demand", "all": "cohesive edges everywhere", "damage": "smeared damage"}
 COLORS = {"demand": look.INK, "all": look.WATER, "damage": look.ACCENT}
@@ -63,19 +59,3 @@ def draw_lines(axes, run, key):
 
 def cost(run):
     return float(run.summary["wall_s"]) if "wall_s" in run.summary else math.nan
-
-
-def main(name, make, description):
-    """A case's results from its sweep: make(runs, folder) writes them."""
-    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sweep", metavar="SWEEP_DIR")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the case, with its README.md")
-    arguments = parser.parse_args()
-    look.make_small()
-    folder = pathlib.Path(arguments.output)
-    try:
-        make(results_page.runs_of(arguments.sweep), folder)
-        for figure in folder.glob("*.png"):
-            look.shrink(figure)
-    except (RunError, OSError) as error:
-        sys.exit(f"{name}_results: {error}")

@@ -6,10 +6,6 @@
     heavily_fractured_results.py SWEEP_DIR -o cases/heavily_fractured
 """
 
-import argparse
-import pathlib
-import sys
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import PowerNorm
@@ -19,7 +15,7 @@ import events_figure
 import fractures_figure
 import look
 import results_page
-from run_data import MODES, Fractures, Frame, RunError
+from run_data import MODES, Fractures, Frame
 
 STRESSES = ("isotropic", "anisotropic")
 PAPER = {"isotropic": 0.25, "anisotropic": 0.45}  # [MPa] above the intact rock
@@ -220,26 +216,14 @@ def draw_events(run, path):
     look.save(figure, path)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sweep", metavar="SWEEP_DIR")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the case, with its README.md")
-    arguments = parser.parse_args()
-    look.make_small()
-    folder = pathlib.Path(arguments.output)
-    try:
-        runs = results_page.runs_of(arguments.sweep)
-        rows = rows_of(runs)
-        results_page.write_csv(folder / "results.csv", rows)
-        results_page.put_between(folder / "README.md", "results", table(rows))
-        draw_thresholds(rows, folder / "summary.png")
-        draw_fractures(runs, folder / "fractures.png")
-        draw_events(runs["isotropic-2"], folder / "events.png")
-        for name in ("summary", "fractures", "events"):
-            look.shrink(folder / f"{name}.png")
-    except (RunError, OSError) as error:
-        sys.exit(f"heavily_fractured_results: {error}")
+def make(runs, folder):
+    rows = rows_of(runs)
+    results_page.write_csv(folder / "results.csv", rows)
+    results_page.put_between(folder / "README.md", "results", table(rows))
+    draw_thresholds(rows, folder / "summary.png")
+    draw_fractures(runs, folder / "fractures.png")
+    draw_events(runs["isotropic-2"], folder / "events.png")
 
 
 if __name__ == "__main__":
-    main()
+    results_page.main("heavily_fractured", make, __doc__)

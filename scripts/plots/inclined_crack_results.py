@@ -100,4 +100,4 @@ def make(runs, folder):
 
 
 if __name__ == "__main__":
-    gallery.main("inclined_crack", make, __doc__)
+    results_page.main("inclined_crack", make, __doc__)

@@ -6,17 +6,12 @@ table of the README.
     montney_dfit_results.py SWEEP_DIR -o cases/montney_dfit
 """
 
-import argparse
-import pathlib
-import sys
-
 import matplotlib.pyplot as plt
 import numpy as np
 
 import fractures_figure
 import look
 import results_page
-from run_data import RunError
 
 # Quasi-static cohesive theory, fluid in broken elements only, curve of Evans and Marathe with 3 G/f: radius [mm], [MPa]
 THEORY = {50.0: 67.8, 30.0: 74.2, 25.4: 76.9}
@@ -124,26 +119,15 @@ def draw_shut_in(runs, rows, path):
     look.save(figure, path)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sweep", metavar="SWEEP_DIR")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the case, with its README.md")
-    arguments = parser.parse_args()
-    look.make_small()
-    folder = pathlib.Path(arguments.output)
-    try:
-        runs = list(results_page.runs_of(arguments.sweep).values())
-        rows = [row_of(run) for run in runs]
-        results_page.write_csv(folder / "results.csv", rows)
-        results_page.put_between(folder / "README.md", "results", table(rows))
-        draw_pressure(runs, rows, folder / "pressure.png")
-        draw_shut_in(runs, rows, folder / "shut_in.png")
-        fractures_figure.draw(runs[0], folder / "fractures.png")
-        for name in ("pressure", "shut_in", "fractures"):
-            look.shrink(folder / f"{name}.png")
-    except (RunError, OSError) as error:
-        sys.exit(f"montney_dfit_results: {error}")
+def make(runs, folder):
+    runs = list(runs.values())
+    rows = [row_of(run) for run in runs]
+    results_page.write_csv(folder / "results.csv", rows)
+    results_page.put_between(folder / "README.md", "results", table(rows))
+    draw_pressure(runs, rows, folder / "pressure.png")
+    draw_shut_in(runs, rows, folder / "shut_in.png")
+    fractures_figure.draw(runs[0], folder / "fractures.png")
 
 
 if __name__ == "__main__":
-    main()
+    results_page.main("montney_dfit", make, __doc__)

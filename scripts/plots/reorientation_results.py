@@ -152,4 +152,4 @@ def make(runs, folder):
 
 
 if __name__ == "__main__":
-    gallery.main("reorientation", make, __doc__)
+    results_page.main("reorientation", make, __doc__)

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the scripts that make a case's results from a sweep share: the runs by name, tables, marked parts of a README."""
 
+import argparse
 import csv
 import pathlib
 import sys
 
+import look
 import numpy as np
-
 from run_data import Run, RunError
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
@@ -57,3 +58,19 @@ def put_between(path, name, text):
     head, rest = page.split(begin)
     path.write_text(head + begin + text + end + rest.split(end)[1], encoding="utf-8")
     print(path)
+
+
+def main(name, make, description):
+    """A case's results from its sweep: make(runs, folder) writes them."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("sweep", metavar="SWEEP_DIR")
+    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the case, with its README.md")
+    arguments = parser.parse_args()
+    look.make_small()
+    folder = pathlib.Path(arguments.output)
+    try:
+        make(runs_of(arguments.sweep), folder)
+        for figure in folder.glob("*.png"):
+            look.shrink(figure)
+    except (RunError, OSError) as error:
+        sys.exit(f"{name}_results: {error}")

@@ -6,10 +6,6 @@ table of the README.
     single_joint_results.py SWEEP_DIR -o cases/single_joint
 """
 
-import argparse
-import pathlib
-import sys
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -18,7 +14,7 @@ from matplotlib.colors import PowerNorm
 import fractures_figure
 import look
 import results_page
-from run_data import Fractures, Frame, RunError
+from run_data import Fractures, Frame
 
 KINDS = {"longitudinal": "0°", "oblique": "45°", "transversal": "90°"}
 DISTANCES = {"0.3L": 0.3, "0.6L": 0.6, "1L": 1.0}
@@ -200,30 +196,18 @@ def draw_stress(runs, path):
     look.save(figure, path)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sweep", metavar="SWEEP_DIR")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the case, with its README.md")
-    arguments = parser.parse_args()
-    look.make_small()
-    folder = pathlib.Path(arguments.output)
-    try:
-        runs = results_page.runs_of(arguments.sweep)
-        rows = rows_of(runs)
-        results_page.write_csv(folder / "results.csv", rows)
-        results_page.put_between(folder / "README.md", "results", table(rows))
-        three = {**AFTER, "end": 1.0}
-        draw_fractures(runs, "0.3L", folder / "fractures_0.3L.png", three)
-        draw_fractures(runs, "0.6L", folder / "fractures_0.6L.png", three)
-        draw_fractures(runs, "1L", folder / "fractures_1L.png", {"early": AFTER["early"]})
-        draw_pressure(runs, folder / "pressure.png")
-        draw_summary(rows, folder / "summary.png")
-        draw_stress(runs, folder / "stress.png")
-        for figure in folder.glob("*.png"):
-            look.shrink(figure)
-    except (RunError, OSError) as error:
-        sys.exit(f"single_joint_results: {error}")
+def make(runs, folder):
+    rows = rows_of(runs)
+    results_page.write_csv(folder / "results.csv", rows)
+    results_page.put_between(folder / "README.md", "results", table(rows))
+    three = {**AFTER, "end": 1.0}
+    draw_fractures(runs, "0.3L", folder / "fractures_0.3L.png", three)
+    draw_fractures(runs, "0.6L", folder / "fractures_0.6L.png", three)
+    draw_fractures(runs, "1L", folder / "fractures_1L.png", {"early": AFTER["early"]})
+    draw_pressure(runs, folder / "pressure.png")
+    draw_summary(rows, folder / "summary.png")
+    draw_stress(runs, folder / "stress.png")
 
 
 if __name__ == "__main__":
-    main()
+    results_page.main("single_joint", make, __doc__)

@@ -99,4 +99,4 @@ def make(runs, folder):
 
 
 if __name__ == "__main__":
-    gallery.main("three_point_bending", make, __doc__)
+    results_page.main("three_point_bending", make, __doc__)
