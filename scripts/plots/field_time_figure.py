@@ -71,14 +71,15 @@ def draw_fracture(run, figure_path):
 def draw_map(run, time, frame, figure_path):
     lines = frame.points[frame.cells][:, :, :2]
     wide, high = 1.16 * np.ptp(lines[:, :, 0]), np.ptp(lines[:, :, 1]) + 0.16 * np.ptp(lines[:, :, 0])
-    figure, panels = plt.subplots(1, 2, figsize=(9.6, min(2.2 + 4.3 * high / wide, 8.0)), sharex=True, sharey=True)
+    height = min(2.3 + 4.3 * high / wide, 8.0)
+    figure, panels = plt.subplots(1, 2, figsize=(9.6, height), sharex=True, sharey=True)
     unit, seconds = unit_of(run.history["time_s"][-1])
     look.set_titles(figure, run, f"Fracture and joints at {time / seconds:.3g} {unit}")
     for axes, name, scale, label in zip(panels, ("opening_m", "pressure_Pa"), (1e3, 1e-6),
                                         ("opening [mm]", "pressure [MPa]")):
         values = LineCollection(lines, array=frame.cell_fields[name] * scale, cmap="viridis", linewidths=2.5)
         axes.add_collection(values)
-        figure.colorbar(values, ax=axes, label=label, orientation="horizontal", pad=0.12)
+        figure.colorbar(values, ax=axes, label=label, orientation="horizontal", pad=1.0 / height, aspect=30)
         axes.plot(0.0, 0.0, marker="o", markersize=4, color=look.ACCENT)
         axes.set_aspect("equal")
         axes.set_xlabel("x [m]")
