@@ -52,6 +52,7 @@ void members(TallyMemory& m, V&& v) {
   v("steps", m.steps);
   v("late_sum", m.late_sum);
   v("late_time", m.late_time);
+  v("final_pressure", m.final_pressure);
 }
 
 template <class V>

@@ -180,6 +180,12 @@ std::string network_text(const NetworkReport& report) {
         "{:.4g}) m",
         report.snapped, 1e3 * report.largest_move, report.largest_move_at.x, report.largest_move_at.y);
   }
+  if (const Index lost = report.merged + report.too_short; 20 * lost > report.joints) {
+    text += fmt::format(
+        "\nwarning: the mesh is too coarse for {} of {} joints, nearer to others or shorter than its edges: take a smaller "
+        "mesh.size_coarse, or joints within mesh.fine_radius only (region_radius of the set)",
+        lost, report.joints);
+  }
   return text;
 }
 

@@ -19,6 +19,7 @@ struct TallyMemory {
   std::int64_t steps = 0;
   double late_sum = 0.0;   ///< pressure times time, in the last tenth of the run [Pa s]
   double late_time = 0.0;  ///< [s]
+  double final_pressure = 0.0;  ///< of the last step so far [Pa]
 };
 
 /// Counts, extents and pressures that end up in summary.json.
@@ -42,6 +43,7 @@ class Tally {
       memory_.late_sum += value * dt;
       memory_.late_time += dt;
     }
+    memory_.final_pressure = value;
     ++memory_.steps;
   }
   void residual(double r) { memory_.energy_residual_max = std::max(memory_.energy_residual_max, r); }
@@ -52,6 +54,7 @@ class Tally {
     RunSummary s = summary_;
     s.breakdown_pressure = memory_.breakdown_pressure;
     s.breakdown_time = memory_.breakdown_time;
+    s.final_pressure = memory_.final_pressure;
     s.energy_residual_max = memory_.energy_residual_max;
     if (memory_.late_time > 0.0) s.propagation_pressure = memory_.late_sum / memory_.late_time;
     return s;

@@ -35,8 +35,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
-  const auto best = std::ranges::min_element(
-      candidates, {}, [&](std::string_view candidate) { return edit_distance(word, candidate); });
+  // "length" is rather the beginning of length_mean than a misspelt density
+  const auto distance = [&](std::string_view candidate) {
+    const bool longer = !word.empty() && candidate.size() > word.size() && candidate[word.size()] == '_';
+    return longer && edit_distance(word, candidate.substr(0, word.size())) == 0 ? 1 : edit_distance(word, candidate);
+  };
+  const auto best = std::ranges::min_element(candidates, {}, distance);
   return best == candidates.end() ? std::string_view{} : *best;
 }
 

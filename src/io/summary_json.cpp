@@ -10,6 +10,7 @@ std::string summary_json(const RunSummary& summary) {
   json.add("breakdown_pressure_Pa", summary.breakdown_pressure);
   json.add("breakdown_time_s", summary.breakdown_time);
   json.add("propagation_pressure_Pa", summary.propagation_pressure);
+  json.add("final_pressure_Pa", summary.final_pressure);
   json.add("broken_length_m", summary.broken_length);
   json.add("extent_x_m", summary.extent_x);
   json.add("extent_y_m", summary.extent_y);

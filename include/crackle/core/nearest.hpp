@@ -11,8 +11,8 @@ namespace crackle {
 /// (Damerau 1964, restricted: optimal string alignment), case ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate with the smallest edit distance to `word`, the first of equals; empty if there
-/// are none. For messages on a misspelt key or law.
+/// The candidate with the smallest edit distance to `word`, the first of equals; one that goes on after `word` with
+/// "_..." counts as one letter off. Empty if there are none. For messages on a misspelt key or law.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace crackle

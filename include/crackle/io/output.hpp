@@ -94,6 +94,7 @@ struct RunSummary {
   double breakdown_pressure = 0.0;    ///< largest wellbore pressure [Pa]
   double breakdown_time = 0.0;        ///< [s]
   double propagation_pressure = 0.0;  ///< mean over the last tenth of the run [Pa]
+  double final_pressure = 0.0;        ///< of the wellbore in the last step [Pa]
   double broken_length = 0.0;         ///< [m]
   double extent_x = 0.0;              ///< of the broken elements [m]
   double extent_y = 0.0;              ///< [m]

@@ -186,6 +186,7 @@ TEST(RunFolder, SummaryIsJson) {
   "breakdown_pressure_Pa": 12740000,
   "breakdown_time_s": 0,
   "propagation_pressure_Pa": 0,
+  "final_pressure_Pa": 0,
   "broken_length_m": 0,
   "extent_x_m": 0,
   "extent_y_m": 0,
