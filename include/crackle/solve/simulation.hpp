@@ -205,6 +205,7 @@ class Simulation {
   double imbalance();
 
  private:
+  static std::vector<Index> wetted_edges(const Scene& scene);
   std::vector<Vec2> geostatic_displacement();
   void find_ramp(const StaticSolver& solver, State& wet, std::optional<Fluid>& fluid,
                  const std::vector<Vec2>& first);
