@@ -60,6 +60,8 @@ HistoryRow history_row(Simulation& s, const Energies& e, const Tally& tally, dou
   row.energy_viscous = e.viscous;
   row.energy_fluid = e.fluid;
   row.work_external = e.external;
+  row.energy_inserted = e.inserted;
+  row.energy_path = e.path;
   row.energy_residual = e.residual;
   for (const LoadRecord& load : s.take_loads()) row.loads.push_back({load.force, load.displacement});
   return row;
@@ -300,6 +302,8 @@ class Run {
     RunSummary summary = tally_.finish();
     summary.triangles = simulation_->state().mesh->triangle_count();
     summary.steps = simulation_->state().step;
+    summary.energy_inserted = simulation_->state().dissipation.inserted;
+    summary.energy_path = simulation_->state().dissipation.path;
     summary.wall = memory.wall;
     summary.core_ns_per_triangle_step = 1e9 * memory.loop_wall * threads_ /
                                         (static_cast<double>(summary.triangles) *

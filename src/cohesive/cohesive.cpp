@@ -67,6 +67,21 @@ CohesiveMaterial at_point(CohesiveMaterial m, const CohesivePoint& p) {
   return m;
 }
 
+// Work on a point in a step [J/m2]: trapezoidal, which is the work that the integrator does (energies at full
+// steps).
+struct StepWork {
+  double normal, shear;
+  double lost;  // friction's too, less what the point holds more
+};
+
+StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
+  const double slip = now.slip - before.slip;
+  const double normal = 0.5 * (now.normal + before.normal) * (now.opening - before.opening);
+  const double shear = 0.5 * (now.shear + before.shear) * slip;
+  const double friction = 0.5 * (now.friction + before.friction) * slip;
+  return {normal, shear, normal + shear + friction - (now.stored - before.stored)};
+}
+
 double utilisation_of(const CohesiveMaterial& m, double normal, double shear) {
   const double pull = std::max(normal, 0.0) / m.tensile_strength;
   const double push = shear / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
@@ -151,31 +166,32 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
     c.status[i] = CohesiveStatus::broken;
     h.break_time = state.time;
   }
-  double fracture = 0.0, sliding = 0.0, friction = 0.0, made = 0.0;
+  double fracture = 0.0, sliding = 0.0, friction = 0.0, made = 0.0, unpaid = 0.0, path = 0.0;
   h.slid = 0.0;
   for (std::size_t q = 0; q < 3; ++q) {
     CohesivePoint& p = h.point[q];
-    if (p.damage == 0.0) continue;
+    if (p.damage == 0.0) {
+      if (law_->curvature() > 0.0) path -= weight[q] * work_of_step(old[q], p).lost;
+      continue;
+    }
     h.slid += weight[q] / length * (p.plastic_slip - old[q].plastic_slip);
-    // Trapezoidal work of the step is the work the integrator does (energies at full steps).
-    const double d_slip = p.slip - old[q].slip;
-    const double normal_work = 0.5 * (p.normal + old[q].normal) * (p.opening - old[q].opening);
-    const double shear_work = 0.5 * (p.shear + old[q].shear) * d_slip;
-    const double friction_work = 0.5 * (p.friction + old[q].friction) * d_slip;
-    const double lost = normal_work + shear_work + friction_work - (p.stored - old[q].stored);
-    const double paid = std::clamp(lost, 0.0, std::max(p.inserted - p.repaid, 0.0));
-    // What a point that breaks early still owes shows in the residual.
-    p.repaid = c.status[i] == CohesiveStatus::active ? p.repaid + paid : std::max(p.repaid, p.inserted);
-    const double dissipated = lost - paid;
+    const StepWork work = work_of_step(old[q], p);
+    const double paid = std::clamp(work.lost, 0.0, std::max(p.inserted - p.repaid, 0.0));
+    p.repaid += paid;
+    if (!was_broken && c.status[i] == CohesiveStatus::broken) {
+      unpaid += weight[q] * std::max(p.inserted - p.repaid, 0.0);
+      p.repaid = std::max(p.repaid, p.inserted);
+    }
+    const double dissipated = work.lost - paid;
     const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
     const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
     // Never negative: what a step would gain is left to the ledger's residual, and to the guards.
     const double broken = std::max(dissipated - rubbed, 0.0);
-    made += weight[q] * std::max(p.stored - old[q].stored - normal_work - shear_work - friction_work, 0.0);
+    made += weight[q] * std::max(-work.lost, 0.0);
     friction += weight[q] * (was_broken ? rubbed + broken : rubbed);
     if (!was_broken) {
       fracture += weight[q] * broken;
-      const double share = std::abs(shear_work) / (std::abs(shear_work) + std::abs(normal_work) + 1e-300);
+      const double share = std::abs(work.shear) / (std::abs(work.shear) + std::abs(work.normal) + 1e-300);
       sliding += weight[q] * broken * share;
     }
   }
@@ -194,6 +210,8 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   sum.fracture += fracture;
   sum.friction += friction;
   sum.made += made;
+  sum.inserted += unpaid;
+  sum.path += path;
   const auto& p = h.point;
   c.force[i] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
                           p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
@@ -288,6 +306,8 @@ void Cohesive::advance_histories(State& state) {
     state.dissipation.fracture += partial[b].fracture;
     state.dissipation.friction += partial[b].friction;
     state.dissipation.made += partial[b].made;
+    state.dissipation.inserted += partial[b].inserted;
+    state.dissipation.path += partial[b].path;
     newly_broken_.insert(newly_broken_.end(), broken[b].begin(), broken[b].end());
   }
   std::sort(newly_broken_.begin(), newly_broken_.end());

@@ -10,7 +10,8 @@ std::string history_header(const std::vector<std::string>& loads) {
       "time_s,time_step_s,pressure_Pa,injection_rate_m2_s,injected_m2,cavity_volume_m2,wetted_length_m,"
       "broken_tensile,broken_shear,broken_mixed,"
       "energy_kinetic_J_m,energy_strain_J_m,energy_cohesive_J_m,energy_fracture_J_m,energy_friction_J_m,"
-      "energy_viscous_J_m,energy_fluid_J_m,work_external_J_m,energy_residual";
+      "energy_viscous_J_m,energy_fluid_J_m,work_external_J_m,energy_inserted_J_m,energy_path_J_m,energy_"
+      "residual";
   for (const std::string& load : loads) {
     header += fmt::format(",{0}_force_x_N_m,{0}_force_y_N_m,{0}_displacement_x_m,{0}_displacement_y_m", load);
   }
@@ -18,12 +19,12 @@ std::string history_header(const std::vector<std::string>& loads) {
 }
 
 std::string history_line(const HistoryRow& row) {
-  std::string line =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.time, row.time_step,
-                  row.pressure, row.injection_rate, row.injected, row.cavity_volume, row.wetted_length,
-                  row.broken_tensile, row.broken_shear, row.broken_mixed, row.energy_kinetic,
-                  row.energy_strain, row.energy_cohesive, row.energy_fracture, row.energy_friction,
-                  row.energy_viscous, row.energy_fluid, row.work_external, row.energy_residual);
+  std::string line = fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.time, row.time_step, row.pressure,
+      row.injection_rate, row.injected, row.cavity_volume, row.wetted_length, row.broken_tensile,
+      row.broken_shear, row.broken_mixed, row.energy_kinetic, row.energy_strain, row.energy_cohesive,
+      row.energy_fracture, row.energy_friction, row.energy_viscous, row.energy_fluid, row.work_external,
+      row.energy_inserted, row.energy_path, row.energy_residual);
   for (const LoadRow& load : row.loads) {
     line += fmt::format(",{},{},{},{}", load.force.x, load.force.y, load.displacement.x, load.displacement.y);
   }

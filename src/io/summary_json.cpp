@@ -15,6 +15,8 @@ std::string summary_json(const RunSummary& summary) {
   json.add("extent_x_m", summary.extent_x);
   json.add("extent_y_m", summary.extent_y);
   json.add("energy_residual_max", summary.energy_residual_max);
+  json.add("energy_inserted_J_m", summary.energy_inserted);
+  json.add("energy_path_J_m", summary.energy_path);
   json.add("mass_residual_max", summary.mass_residual_max);
   json.add("triangles", summary.triangles);
   json.add("steps", summary.steps);

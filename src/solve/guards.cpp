@@ -11,6 +11,7 @@ namespace crackle {
 namespace {
 
 constexpr double energy_made_warning = 0.02, energy_made_stop = 0.2;  // over what was dissipated
+constexpr double given_warning = 0.05;                                // by the method, over the same
 constexpr double negative_kinetic = 0.01;                             // over the largest energy
 constexpr double borne_by_stray = 0.5;                                // of the strength
 constexpr double fracture_damage = 0.5;                               // of an element in a cohesive zone
@@ -162,6 +163,15 @@ void Guards::look_at_breaks(const Simulation& s, std::vector<Finding>& found) {
           fmt::format("cohesive elements make energy: {:.3g} J/m against {:.3g} J/m dissipated, most in "
                       "element {} at ({:.4g}, {:.4g}) m, {}; {}",
                       d.made, spent, worst, x.x, x.y, when(s), cause(s)));
+  }
+  const double given = std::abs(d.inserted) + std::abs(d.path);
+  if (given > given_warning * spent && given > least_energy_) {
+    raise(found, Alarm::given_energy, false,
+          fmt::format(
+              "the method gave the rock {:.3g} J/m (elements inserted under load {:.3g}, their curved "
+              "elastic branch {:.3g}) against {:.3g} J/m dissipated, {}: take shorter edges or a larger "
+              "cohesive.penalty",
+              given, d.inserted, d.path, spent, when(s)));
   }
 }
 

@@ -274,6 +274,8 @@ Energies Simulation::potential_energies() const {
   e.friction = state_.dissipation.friction;
   for (const Cavity& cavity : state_.fluid.cavities) e.external += cavity.work;
   e.external -= state_.dissipation.boundary;
+  e.inserted = state_.dissipation.inserted;
+  e.path = state_.dissipation.path;
   return e;
 }
 
@@ -287,7 +289,7 @@ Energies Simulation::with_residual(Energies e) {
   const double stored = e.kinetic + e.strain + e.cohesive + e.fluid;
   const double spent = e.fracture + e.friction + e.viscous;
   scale_ = std::max({scale_, std::abs(e.external), std::abs(e.strain), std::abs(e.fluid), spent});
-  e.residual = std::abs(stored + spent - e.external) / scale_;
+  e.residual = std::abs(stored + spent - e.external - e.inserted - e.path) / scale_;
   if (!std::isfinite(stored + spent)) stop_not_finite();
   return e;
 }

@@ -35,8 +35,9 @@ struct HistoryRow {
   double energy_kinetic = 0.0, energy_strain = 0.0, energy_cohesive = 0.0, energy_fracture = 0.0,
          energy_friction = 0.0, energy_viscous = 0.0, energy_fluid = 0.0;  ///< [J/m]
   double work_external = 0.0;                                              ///< [J/m]
-  double energy_residual = 0.0;                                            ///< [-]
-  std::vector<LoadRow> loads;                                              ///< one each
+  double energy_inserted = 0.0, energy_path = 0.0;  ///< given by insertion, by the elastic branch [J/m]
+  double energy_residual = 0.0;                     ///< [-]
+  std::vector<LoadRow> loads;                       ///< one each
 };
 
 /// One row of history.csv of a run in field time. Volumes and rates of the plane are per metre of height
@@ -99,6 +100,8 @@ struct RunSummary {
   double extent_x = 0.0;              ///< of the broken elements [m]
   double extent_y = 0.0;              ///< [m]
   double energy_residual_max = 0.0;   ///< [-]
+  double energy_inserted = std::numeric_limits<double>::quiet_NaN();  ///< as in HistoryRow; not in field time
+  double energy_path = std::numeric_limits<double>::quiet_NaN();
   double mass_residual_max =
       std::numeric_limits<double>::quiet_NaN();  ///< over the injected [-]; in field time
   std::int64_t triangles = 0;

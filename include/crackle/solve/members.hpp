@@ -20,6 +20,8 @@ void members(Energies& e, V&& v) {
   v("viscous", e.viscous);
   v("fluid", e.fluid);
   v("external", e.external);
+  v("inserted", e.inserted);
+  v("path", e.path);
   v("residual", e.residual);
 }
 

@@ -134,8 +134,11 @@ struct Energies {
   double viscous = 0.0;
   double fluid = 0.0;
   double external = 0.0;  ///< work of the pump and of loads, less what an absorbing boundary took
-  double residual = 0.0;  ///< |stored + dissipated − external| over the largest of them so far (or what
-                          ///< strains of 3e-7 everywhere hold, if that is more)
+  /// What the method itself gave to the rock, known errors that are computed where they arise: see
+  /// Dissipation.
+  double inserted = 0.0, path = 0.0;
+  double residual = 0.0;  ///< |stored + dissipated − external − inserted − path| over the largest of them so
+                          ///< far (or what strains of 3e-7 everywhere hold, if that is more)
 };
 
 /// What a simulation keeps beside its State, so that another can go on from there.

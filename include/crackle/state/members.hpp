@@ -144,6 +144,8 @@ void members(Dissipation& d, V&& v) {
   v("viscous", d.viscous);
   v("boundary", d.boundary);
   v("made", d.made);
+  v("inserted", d.inserted);
+  v("path", d.path);
 }
 
 template <class V>

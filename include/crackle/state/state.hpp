@@ -144,6 +144,12 @@ struct Dissipation {
   double viscous = 0.0;
   double boundary = 0.0;  ///< radiated through an absorbing boundary
   double made = 0.0;      ///< not dissipated: given back by cohesive elements beyond what they held
+  /// Given to the rock by springs that were inserted under load and broke before they had paid it back: all
+  /// of an element breaks when two of its points have, and the third's debt goes with it.
+  double inserted = 0.0;
+  /// Given to the rock by points on a curved elastic branch, whose shear strength follows the normal stress:
+  /// it has no potential, and leaves or takes work on a closed path. Negative: taken.
+  double path = 0.0;
 };
 
 /// A point of a free side (3 t + i: side i of triangle t) that touches another free side, or that

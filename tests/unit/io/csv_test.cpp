@@ -30,6 +30,8 @@ TEST(HistoryCsv, HasTheAgreedColumnsAndExactValues) {
   row.time = 0.1 + 0.2;  // not 0.3
   row.time_step = 1.0 / 3.0;
   row.broken_shear = 7;
+  row.energy_inserted = 0.125;
+  row.energy_path = -2.0;
   row.energy_residual = -std::numeric_limits<double>::denorm_min();
   RunFolder run(scratch / "run");
   run.append_history(row);
@@ -44,8 +46,8 @@ TEST(HistoryCsv, HasTheAgreedColumnsAndExactValues) {
       "time_s,time_step_s,pressure_Pa,injection_rate_m2_s,injected_m2,cavity_volume_m2,wetted_length_m,"
       "broken_tensile,broken_shear,broken_mixed,energy_kinetic_J_m,energy_strain_J_m,energy_cohesive_J_m,"
       "energy_fracture_J_m,energy_friction_J_m,energy_viscous_J_m,energy_fluid_J_m,work_external_J_m,"
-      "energy_residual");
-  EXPECT_EQ(line, "0.30000000000000004,0.3333333333333333,0,0,0,0,0,0,7,0,0,0,0,0,0,0,0,0,-5e-324");
+      "energy_inserted_J_m,energy_path_J_m,energy_residual");
+  EXPECT_EQ(line, "0.30000000000000004,0.3333333333333333,0,0,0,0,0,0,7,0,0,0,0,0,0,0,0,0,0.125,-2,-5e-324");
 }
 
 TEST(HistoryCsv, HasFourColumnsALoad) {

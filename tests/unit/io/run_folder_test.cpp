@@ -191,6 +191,8 @@ TEST(RunFolder, SummaryIsJson) {
   "extent_x_m": 0,
   "extent_y_m": 0,
   "energy_residual_max": null,
+  "energy_inserted_J_m": null,
+  "energy_path_J_m": null,
   "mass_residual_max": null,
   "triangles": 190000,
   "steps": 0,
