@@ -63,6 +63,7 @@ FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, co
   h.energy_confinement = wings * e.confinement;
   h.energy_faces = wings * e.faces;
   h.energy_fracture = wings * e.fracture;
+  h.energy_friction = wings * e.friction;
   h.energy_residual = e.residual;
   h.iterations = row.iterations;
   return h;

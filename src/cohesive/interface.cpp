@@ -5,7 +5,11 @@ namespace crackle {
 
 InterfaceLaw::InterfaceLaw(std::shared_ptr<const CohesiveLaw> law, double strength, double fracture_energy,
                            Closure closure, ShearLaw shear)
-    : law_(std::move(law)), strength_(strength), closure_(closure), shear_(shear) {
+    : law_(std::move(law)),
+      strength_(strength),
+      fracture_energy_(fracture_energy),
+      closure_(closure),
+      shear_(shear) {
   elastic_ = 0.002 * 2.0 * fracture_energy / strength_;
   softening_ = (fracture_energy - 0.5 * strength_ * elastic_) / (strength_ * law_->softening_integral());
 }
@@ -32,6 +36,12 @@ TractionSlope InterfaceLaw::traction(double opening, double max_opening, double 
     t.slope = strength_ * (law_->softening(high) - law_->softening(low)) / ((high - low) * softening_);
   }
   return t;
+}
+
+// Asperities below a fiftieth of their height (a third, of fresh faces): the hyperbola goes on as its
+// tangent.
+double InterfaceLaw::least_opening(double largest) const {
+  return largest < closure_.residual_aperture ? 0.3 * largest : 0.02 * closure_.residual_aperture;
 }
 
 MixedTraction InterfaceLaw::traction(double opening, double slip, double max_opening, double plastic_slip,
@@ -65,15 +75,12 @@ MixedTraction InterfaceLaw::traction(double opening, double slip, double max_ope
     t.sn = beta2 * slip * slope;
     t.ss = beta2 * secant;
   }
-  // asperities; below a fiftieth of their height (a third, of fresh faces) the hyperbola goes on as its
-  // tangent
-  const double least =
-      largest < closure_.residual_aperture ? 0.3 * largest : 0.02 * closure_.residual_aperture;
+  const double least = least_opening(largest);
   TractionSlope pressed = closure_.traction(std::max(opening, least), largest);
   if (opening < least) pressed.traction += pressed.slope * (opening - least);
   t.normal += pressed.traction;
   t.nn += pressed.slope;
-  const double stiffness = closure_.closure_stress / (9.0 * closure_.residual_aperture);
+  const double stiffness = friction_stiffness();
   const double limit = -shear_.friction * pressed.traction;
   t.friction = in_situ_shear + stiffness * (slip - plastic_slip);
   if (std::abs(t.friction) <= limit) {
@@ -91,15 +98,33 @@ MixedTraction InterfaceLaw::traction(double opening, double slip, double max_ope
 double InterfaceLaw::stored(double opening, double max_opening, double in_situ) const {
   const double largest = std::max(opening, max_opening);
   if (largest <= elastic_) return opening * (in_situ + 0.5 * (strength_ - in_situ) / elastic_ * opening);
-  const double d = damage(largest);
+  const double d = damage(largest), wide = std::max(opening, 0.0), least = least_opening(largest);
+  const double pressed = std::max(opening, least), beyond = opening - pressed;
+  const TractionSlope t = closure_.traction(pressed, largest);
   // the bond's in-situ stress was given up on the elastic branch
-  return 0.5 * in_situ * elastic_ + 0.5 * strength_ * law_->softening(d) * opening * opening / largest +
-         closure_.energy(opening, largest);
+  return 0.5 * in_situ * elastic_ + 0.5 * strength_ * law_->softening(d) * wide * wide / largest +
+         closure_.energy(pressed, largest) + (t.traction + 0.5 * t.slope * beyond) * beyond;
+}
+
+double InterfaceLaw::shear_stiffness(double max_opening) const {
+  const double beta2 = shear_.ratio * shear_.ratio;
+  if (max_opening <= elastic_) return beta2 * strength_ / elastic_;
+  const double d = damage(max_opening);
+  return d < 1.0 ? beta2 * strength_ * law_->softening(d) / max_opening : 0.0;
+}
+
+double InterfaceLaw::stored_by_slip(double opening, double slip, double max_opening, double friction,
+                                    double in_situ_shear) const {
+  const double largest = std::max(opening, max_opening);
+  const double bond = 0.5 * shear_stiffness(largest) * slip * slip;
+  if (largest <= elastic_) return bond + in_situ_shear * slip * (1.0 - std::max(opening, 0.0) / elastic_);
+  return bond + 0.5 * friction * friction / friction_stiffness();
 }
 
 double InterfaceLaw::dissipated(double max_opening) const {
   if (max_opening <= elastic_) return 0.0;
   const double d = damage(max_opening);
+  if (d >= 1.0) return fracture_energy_;
   constexpr int pieces = 32;  // Simpson
   double sum = 0.0;
   for (int i = 0; i < pieces; ++i) {
@@ -107,8 +132,8 @@ double InterfaceLaw::dissipated(double max_opening) const {
     sum += (b - a) / 6.0 *
            (law_->softening(a) + 4.0 * law_->softening(0.5 * (a + b)) + law_->softening(std::min(b, 1.0)));
   }
-  const double work = 0.5 * strength_ * elastic_ + strength_ * softening_ * sum;
-  return d < 1.0 ? work - 0.5 * strength_ * law_->softening(d) * max_opening : work;
+  return 0.5 * strength_ * elastic_ + strength_ * softening_ * sum -
+         0.5 * strength_ * law_->softening(d) * max_opening;
 }
 
 }  // namespace crackle

@@ -65,10 +65,19 @@ class InterfaceLaw {
   double stored(double opening, double max_opening, double in_situ) const;
   /// Energy dissipated per area by a point that has been open by `max_opening` [J/m2].
   double dissipated(double max_opening) const;
+  /// Shear traction over slip of what holds a point together [Pa/m].
+  double shear_stiffness(double max_opening) const;
+  /// Energy per area that slip holds beside it [J/m2]: in the bond, and between closed faces.
+  /// @param friction part of the shear traction [Pa]
+  double stored_by_slip(double opening, double slip, double max_opening, double friction,
+                        double in_situ_shear) const;
 
  private:
+  double friction_stiffness() const { return closure_.closure_stress / (9.0 * closure_.residual_aperture); }
+  double least_opening(double largest) const;
+
   std::shared_ptr<const CohesiveLaw> law_;
-  double strength_;
+  double strength_, fracture_energy_;
   Closure closure_;
   ShearLaw shear_;
   double elastic_ = 0.0, softening_ = 0.0;

@@ -31,7 +31,54 @@ double pressure_before(const Equations& e, const State& before, Index cell) {
   return cell < 0 ? before.well_pressure : before.cells[at(cell)].pressure;
 }
 
-/// What the state keeps, and what fracture has taken.
+/// A point that may slip: what acts along it.
+struct Along {
+  double slip = 0.0, plastic_slip = 0.0;  // [m]
+  double friction = 0.0;                  // [Pa]
+  double stiffness = 0.0;                 // of the bond [Pa/m]
+};
+Along along(const Equations& e, std::size_t c, std::size_t i, const Point& point,
+            const std::vector<double>& jumps) {
+  const double opening = openings(e.path.edges()[c], jumps)[i], slip = slips(e.path.edges()[c], jumps)[i];
+  const MixedTraction t = e.laws[c].traction(opening, slip, point.max_opening, point.plastic_slip,
+                                             point.in_situ, point.in_situ_shear);
+  return {slip, point.plastic_slip, t.friction,
+          e.laws[c].shear_stiffness(std::max(opening, point.max_opening))};
+}
+
+/// Dissipated by friction, and by bonds that give way while they bear shear, with tractions that go straight
+/// from those before a step to those after it: ∫ τ ds less what is stored.
+struct Slid {
+  double friction = 0.0, fracture = 0.0;  // [J/m]
+};
+Slid slid(const Equations& e, const State& before, const State& after) {
+  Slid sum;
+  std::vector<double> jumps = before.jumps;
+  jumps.resize(after.jumps.size(), 0.0);  // of what has joined the path
+  for (std::size_t c = 0; c < after.cells.size(); ++c) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double half = 0.5 * e.path.edges()[c].length;
+      const Along b = along(e, c, i, after.cells[c].points[i], after.jumps);
+      const Along a = c < before.cells.size() ? along(e, c, i, before.cells[c].points[i], jumps)
+                                              : Along{0.0, 0.0, 0.0, e.laws[c].shear_stiffness(0.0)};
+      sum.friction += half * 0.5 * (a.friction + b.friction) * (b.plastic_slip - a.plastic_slip);
+      sum.fracture += half * 0.5 * a.slip * b.slip * (a.stiffness - b.stiffness);
+    }
+  }
+  return sum;
+}
+
+/// Dissipated by opening [J/m].
+double opened(const Equations& e, const State& state) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < state.cells.size(); ++c) {
+    for (const Point& point : state.cells[c].points)
+      sum += 0.5 * e.path.edges()[c].length * e.laws[c].dissipated(point.max_opening);
+  }
+  return sum;
+}
+
+/// What the state keeps.
 Energies kept(const Equations& e, const State& state) {
   Energies k;
   k.strain = strain_energy(e, state);
@@ -44,8 +91,11 @@ Energies kept(const Equations& e, const State& state) {
       const double half = 0.5 * edge.length;
       k.confinement -= half * point.in_situ * (w[i] - edge.aperture);
       k.faces += half * e.laws[c].stored(w[i], point.max_opening, point.in_situ);
-      k.fracture += half * e.laws[c].dissipated(std::max(point.max_opening, w[i]));
-      if (e.scene.slip) k.confinement -= half * point.in_situ_shear * slips(edge, state.jumps)[i];
+      if (!e.scene.slip) continue;
+      const Along s = along(e, c, i, point, state.jumps);
+      k.confinement -= half * point.in_situ_shear * s.slip;
+      k.faces +=
+          half * e.laws[c].stored_by_slip(w[i], s.slip, point.max_opening, s.friction, point.in_situ_shear);
     }
     if (!cell.wet) continue;
     const double p = cell.pressure;
@@ -75,27 +125,22 @@ void account(const Equations& e, const State& before, State& after, double dt, d
     if (!cell.wet) continue;
     const double mean = 0.5 * (h(pressure_before(e, before, static_cast<Index>(c))) + h(cell.pressure));
     const bool old = c < before.cells.size();
-    for (std::size_t i = 0; old && e.scene.slip && i < 2; ++i) {
-      const double slid = cell.points[i].plastic_slip - before.cells[c].points[i].plastic_slip;
-      const auto opening = openings(e.path.edges()[c], after.jumps)[i];
-      const double drag =
-          e.laws[c]
-              .traction(opening, slips(e.path.edges()[c], after.jumps)[i], cell.points[i].max_opening,
-                        cell.points[i].plastic_slip, cell.points[i].in_situ, cell.points[i].in_situ_shear)
-              .friction;
-      sum.friction += 0.5 * e.path.edges()[c].length * drag * slid;
-    }
     const double gained = cell.mass - (old ? before.cells[c].mass : 0.0);
     const double lost = cell.leaked - (old ? before.cells[c].leaked : 0.0);
     sum.entry += (well - mean) * entered[c];
     sum.leaked += mean * lost;
     sum.viscous -= mean * (gained + lost - entered[c]);
   }
+  sum.fracture += opened(e, after) - opened(e, before);
+  if (e.scene.slip) {
+    const Slid step = slid(e, before, after);
+    sum.friction += step.friction;
+    sum.fracture += step.fracture;
+  }
   sum.fluid = now.fluid - after.initial.fluid;
   sum.strain = now.strain - after.initial.strain;
   sum.confinement = now.confinement - after.initial.confinement;
   sum.faces = now.faces - after.initial.faces;
-  sum.fracture = now.fracture - after.initial.fracture;
   const double left = sum.pumped - (sum.well + sum.entry + sum.viscous + sum.leaked + sum.fluid + sum.strain +
                                     sum.confinement + sum.faces + sum.fracture + sum.friction);
   sum.residual = std::abs(left) / std::max({sum.pumped, sum.well, 1e-30});

@@ -217,6 +217,7 @@ class QuasiStatic::Solver {
     }
     if (!qs::solve(equations_, state_, 0.0, 0.0).converged)
       throw NumericalError("quasi-static stage: no equilibrium of the initial fracture at pore pressure");
+    for (std::size_t c = 0; c < state_.cells.size(); ++c) remember_slip(state_, c);
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
       if (state_.cells[c].wet) state_.cells[c].mass = qs::fluid_in_cell(equations_, state_, c);
     }
@@ -306,6 +307,18 @@ class QuasiStatic::Solver {
     return changed;
   }
 
+  void remember_slip(qs::State& state, std::size_t c) const {
+    if (!scene_.slip) return;
+    const auto w = qs::openings(path_.edges()[c], state.jumps),
+               slip = qs::slips(path_.edges()[c], state.jumps);
+    for (std::size_t i = 0; i < 2; ++i) {
+      qs::Point& p = state.cells[c].points[i];
+      p.plastic_slip = laws_[c]
+                           .traction(w[i], slip[i], p.max_opening, p.plastic_slip, p.in_situ, p.in_situ_shear)
+                           .plastic_slip;
+    }
+  }
+
   QuasiStaticRow commit(qs::State trial, double until, double dt, double rate, int iterations) {
     for (std::size_t c = 0; c < trial.cells.size(); ++c) {
       qs::Cell& cell = trial.cells[c];
@@ -320,16 +333,9 @@ class QuasiStatic::Solver {
           matrix_->advance(std::span(trial.matrix).subspan(c * n, n), dt, cell.pressure);
         }
       }
-      for (std::size_t i = 0; i < 2; ++i) {
-        qs::Point& p = cell.points[i];
-        if (scene_.slip) {
-          p.plastic_slip = laws_[c]
-                               .traction(w[i], qs::slips(path_.edges()[c], trial.jumps)[i], p.max_opening,
-                                         p.plastic_slip, p.in_situ, p.in_situ_shear)
-                               .plastic_slip;
-        }
-        p.max_opening = std::max(p.max_opening, w[i]);
-      }
+      remember_slip(trial, c);
+      for (std::size_t i = 0; i < 2; ++i)
+        cell.points[i].max_opening = std::max(cell.points[i].max_opening, w[i]);
       const double damage =
           laws_[c].damage(cell.points[0].max_opening) + laws_[c].damage(cell.points[1].max_opening);
       if (cell.wet && damage >= 1.0) cell.exposed = std::min(cell.exposed, until);

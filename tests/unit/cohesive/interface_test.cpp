@@ -57,6 +57,47 @@ TEST(Interface, ClosedFacesFollowTheHyperbola) {
   EXPECT_NEAR(law.traction(law.elastic_opening(), 0.0, -9e6).traction, 2e6, 1e-3);
 }
 
+// Opened while it is sheared, slid closed there and back, half open and shut again: the work of the tractions
+// is what is kept and what is dissipated.
+TEST(Interface, WorkOfOpeningAndSlipIsKeptOrDissipated) {
+  const InterfaceLaw law(find_law("linear"), 2e6, 100.0, {1e-5, 30e6}, {2.0, 0.6});
+  constexpr double in_situ = -5e6, in_situ_shear = 1e6;
+  const double wide = law.broken_opening();
+  const Vec2 stations[] = {{0.0, 0.0},          {0.5 * wide, 2e-5}, {1e-6, 2e-5}, {1e-6, 8e-5},
+                           {2e-6, -3e-5},       {1.2 * wide, 1e-5}, {1e-6, 1e-5}, {-1e-7, 6e-5},
+                           {1.5 * wide, -2e-5}, {5e-7, 0.0}};
+  double most = 0.0, plastic = 0.0, work = 0.0, friction = 0.0, by_slip = 0.0;
+  MixedTraction before = law.traction(0.0, 0.0, most, plastic, in_situ, in_situ_shear);
+  double stiffness = law.shear_stiffness(0.0);
+  Vec2 was{0.0, 0.0};
+  constexpr int steps = 20000;
+  for (std::size_t k = 1; k < std::size(stations); ++k) {
+    for (int i = 1; i <= steps; ++i) {
+      const Vec2 d = stations[k - 1] + (static_cast<double>(i) / steps) * (stations[k] - stations[k - 1]);
+      const MixedTraction t = law.traction(d.x, d.y, most, plastic, in_situ, in_situ_shear);
+      work +=
+          0.5 * (before.normal + t.normal) * (d.x - was.x) + 0.5 * (before.shear + t.shear) * (d.y - was.y);
+      friction += 0.5 * (before.friction + t.friction) * (t.plastic_slip - plastic);
+      most = std::max(most, d.x);
+      const double now = law.shear_stiffness(most);
+      by_slip += 0.5 * was.y * d.y * (stiffness - now);
+      plastic = t.plastic_slip;
+      stiffness = now;
+      before = t;
+      was = d;
+    }
+    const double kept = law.stored(was.x, most, in_situ) +
+                        law.stored_by_slip(was.x, was.y, most, before.friction, in_situ_shear);
+    const double left = work - kept - law.dissipated(most) - by_slip - friction;
+    std::printf("station %zu: work %.3f, kept %.3f, fracture %.3f and %.3f, friction %.3f: left %.4f J/m2\n",
+                k, work, kept, law.dissipated(most), by_slip, friction, left);
+    EXPECT_LT(std::abs(left), 0.2) << "of G = 100 J/m2";
+    EXPECT_GE(friction, 0.0);
+  }
+  EXPECT_GT(friction, 10.0);
+  EXPECT_GT(by_slip, 0.1);
+}
+
 TEST(Interface, StrengthThatTheMeshResolves) {
   EXPECT_NEAR(resolved_strength(10.75e6, 43.76e9, 100.0, 0.5, 8.0), std::sqrt(43.76e9 * 100.0 / 4.0), 1.0);
   EXPECT_EQ(resolved_strength(1e5, 43.76e9, 100.0, 0.5, 8.0), 1e5);

@@ -205,6 +205,8 @@ TEST(Paths, Kink) {
   EXPECT_LE(turn, 15.0);
   EXPECT_GT(right.x - left.x, 6.0);
   EXPECT_NEAR(left.x + right.x, 0.0, 1.01);
+  EXPECT_GT(last.energies.friction, 0.0);
+  EXPECT_LT(last.energies.residual, 2e-3) << "with the slip of closed faces";
   EXPECT_LT(std::abs(last.mass_defect), 1e-8 * last.injected);
 }
 
