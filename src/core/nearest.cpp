@@ -34,10 +34,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
-  const auto best = std::ranges::min_element(
-      candidates, {}, [&](std::string_view candidate) { return edit_distance(word, candidate); });
-  return best == candidates.end() ? std::string_view{} : *best;
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates,
+                         std::size_t most) {
+  std::string_view best;
+  std::size_t within = most == std::string_view::npos ? most : most + 1;
+  for (const std::string_view candidate : candidates) {
+    // The difference in length is a bound that costs nothing.
+    const std::size_t a = std::min(word.size(), longest_name), b = std::min(candidate.size(), longest_name);
+    if ((a > b ? a - b : b - a) >= within) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance >= within) continue;
+    within = distance;
+    best = candidate;
+  }
+  return best;
 }
 
 }  // namespace crackle

@@ -12,7 +12,8 @@ namespace crackle {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate with the smallest edit distance to `word`, the first of equals; empty if there
-/// are none. For messages on a misspelt key or law.
-std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+/// is none within `most`. For messages on a misspelt key or law.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates,
+                         std::size_t most = std::string_view::npos);
 
 }  // namespace crackle
