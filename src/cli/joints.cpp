@@ -182,7 +182,8 @@ std::string network_text(const NetworkReport& report) {
   }
   if (const Index lost = report.merged + report.too_short; 20 * lost > report.joints) {
     text += fmt::format(
-        "\nwarning: the mesh is too coarse for {} of {} joints, nearer to others or shorter than its edges: take a smaller "
+        "\nwarning: the mesh is too coarse for {} of {} joints, nearer to others or shorter than its edges: "
+        "take a smaller "
         "mesh.size_coarse, or joints within mesh.fine_radius only (region_radius of the set)",
         lost, report.joints);
   }

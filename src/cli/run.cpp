@@ -336,8 +336,8 @@ class Run {
       say(fmt::format("{} damaged triangles, {} of them failed; {} above the size limit got a lower strength",
                       d.triangles.size(), failed, d.lowered));
     }
-    say(fmt::format("{}{} broken elements, {:.3f} m; energy residual {:.1e}", pressures(summary), tally_.broken(),
-                    summary.broken_length, summary.energy_residual_max));
+    say(fmt::format("{}{} broken elements, {:.3f} m; energy residual {:.1e}", pressures(summary),
+                    tally_.broken(), summary.broken_length, summary.energy_residual_max));
     say(fmt::format("{}: {}", exit_, folder_.path()));
     if (!is_at_end()) say("to go on: crackle run --resume " + folder_.path());
   }
@@ -347,8 +347,9 @@ class Run {
     if (scene_.fluid.pump.empty()) return {};
     const double highest = 1e-6 * summary.breakdown_pressure, time = 1e3 * summary.breakdown_time;
     if (summary.final_pressure > 0.99 * summary.breakdown_pressure) {
-      return fmt::format("no breakdown, the pressure is at its highest when the run ends: {:.3f} MPa at {:.4f} ms; ",
-                         highest, time);
+      return fmt::format(
+          "no breakdown, the pressure is at its highest when the run ends: {:.3f} MPa at {:.4f} ms; ",
+          highest, time);
     }
     return fmt::format("breakdown {:.3f} MPa at {:.4f} ms, propagation {:.3f} MPa; ", highest, time,
                        1e-6 * summary.propagation_pressure);

@@ -17,8 +17,8 @@ struct TallyMemory {
   double breakdown_time = 0.0;       ///< [s]
   double energy_residual_max = 0.0;  ///< [-]
   std::int64_t steps = 0;
-  double late_sum = 0.0;   ///< pressure times time, in the last tenth of the run [Pa s]
-  double late_time = 0.0;  ///< [s]
+  double late_sum = 0.0;        ///< pressure times time, in the last tenth of the run [Pa s]
+  double late_time = 0.0;       ///< [s]
   double final_pressure = 0.0;  ///< of the last step so far [Pa]
 };
 

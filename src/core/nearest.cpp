@@ -12,6 +12,13 @@ constexpr std::size_t longest_name = 64;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+/// Whether a name begins with a word: "length" is rather the beginning of length_mean than a misspelt
+/// density.
+bool goes_on(std::string_view word, std::string_view name) {
+  return !word.empty() && name.size() > word.size() && name[word.size()] == '_' &&
+         std::ranges::equal(word, name.substr(0, word.size()), {}, lower, lower);
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -34,14 +41,25 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
-  // "length" is rather the beginning of length_mean than a misspelt density
-  const auto distance = [&](std::string_view candidate) {
-    const bool longer = !word.empty() && candidate.size() > word.size() && candidate[word.size()] == '_';
-    return longer && edit_distance(word, candidate.substr(0, word.size())) == 0 ? 1 : edit_distance(word, candidate);
-  };
-  const auto best = std::ranges::min_element(candidates, {}, distance);
-  return best == candidates.end() ? std::string_view{} : *best;
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates,
+                         std::size_t most) {
+  std::string_view best;
+  std::size_t within = most == std::string_view::npos ? most : most + 1;
+  for (const std::string_view candidate : candidates) {
+    if (goes_on(word, candidate) && within > 1) {
+      within = 1;
+      best = candidate;
+      continue;
+    }
+    // The difference in length is a bound that costs nothing.
+    const std::size_t a = std::min(word.size(), longest_name), b = std::min(candidate.size(), longest_name);
+    if ((a > b ? a - b : b - a) >= within) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance >= within) continue;
+    within = distance;
+    best = candidate;
+  }
+  return best;
 }
 
 }  // namespace crackle

@@ -53,13 +53,12 @@ std::string unknown_key(const TomlNode& node, const TableSpec& table) {
   const std::vector<std::string_view> here = names_in(table);
   const std::string_view close = nearest(node.key, here);
   std::string advice = fmt::format("the nearest is \"{}\"", close);
+  const std::size_t distance = edit_distance(node.key, close);
   for (const TableSpec& other : case_tables()) {
+    if (distance < 2) break;
     const std::vector<std::string_view> there = names_in(other);
-    const std::string_view better = nearest(node.key, there);
-    if (edit_distance(node.key, better) + 2 <= edit_distance(node.key, close) &&
-        edit_distance(node.key, better) <= 2) {
-      advice += fmt::format("; {} has \"{}\"", header(other), better);
-    }
+    const std::string_view better = nearest(node.key, there, std::min<std::size_t>(2, distance - 2));
+    if (!better.empty()) advice += fmt::format("; {} has \"{}\"", header(other), better);
   }
   return fmt::format("{}: {}", what, advice);
 }

@@ -44,7 +44,8 @@ void build_edges(Mesh& mesh) {
   const Index triangle_count = mesh.triangle_count();
   if (mesh.regions.size() != mesh.triangles.size()) mesh.regions.resize(mesh.triangles.size(), Region::rock);
   mesh.edges.clear();
-  mesh.edges.reserve(mesh.triangles.size() * 3 / 2 + 16);
+  // Euler: as many as vertices and triangles, less one and more one a hole.
+  mesh.edges.reserve(mesh.vertices.size() + mesh.triangles.size() + 16);
   mesh.triangle_edges.assign(mesh.triangles.size(), {-1, -1, -1});
 
   // Edges that share their lower vertex are chained in a list: it is some three edges long.

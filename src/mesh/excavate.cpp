@@ -20,6 +20,9 @@ Mesh excavate(const Mesh& mesh) {
   }
 
   Mesh rock;
+  rock.triangles.reserve(mesh.triangles.size());
+  rock.regions.reserve(mesh.regions.size());
+  rock.vertices.reserve(mesh.vertices.size());
   rock.set_of_joint = mesh.set_of_joint;
   rock.joint_sets = mesh.joint_sets;
   std::vector<bool> used(mesh.vertices.size(), false);

@@ -11,8 +11,11 @@ namespace crackle {
 /// (Damerau 1964, restricted: optimal string alignment), case ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate with the smallest edit distance to `word`, the first of equals; one that goes on after `word` with
-/// "_..." counts as one letter off. Empty if there are none. For messages on a misspelt key or law.
-std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+/// The candidate with the smallest edit distance to `word`, the first of equals; one that goes on after
+/// `word` with
+/// "_..." counts as one letter off. Empty if there is none within `most`. For messages on a misspelt key or
+/// law.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates,
+                         std::size_t most = std::string_view::npos);
 
 }  // namespace crackle

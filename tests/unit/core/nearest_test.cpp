@@ -27,6 +27,9 @@ TEST(Nearest, TakesTheClosestAndTheFirstOfEquals) {
   EXPECT_EQ(nearest("xz", names), "xx");
   EXPECT_EQ(nearest("x_y", names), "xy");
   EXPECT_EQ(nearest("word", {}), "");
+  EXPECT_EQ(nearest("x_y", names, 1), "xy");
+  EXPECT_EQ(nearest("x_y", names, 0), "");
+  EXPECT_EQ(nearest("xy", names, 0), "xy");
   const std::string_view keys[] = {"density", "length_mean", "seed"};
   EXPECT_EQ(nearest("length", keys), "length_mean");
   EXPECT_EQ(nearest("sed", keys), "seed");
