@@ -27,19 +27,26 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
   FieldFrame frame;
   frame.time = state.time;
   const Index triangles = state.mesh->triangle_count();
-  // One field after the other, and none that is not wanted: a frame is the largest thing in memory.
-  const auto corners = at(3 * triangles);
-  frame.points.reserve(corners);
-  for (Index c = 0; c < 3 * triangles; ++c) frame.points.push_back(state.position(c));
+  // One field after the other, and none that is not wanted: a frame is the largest thing in memory. A point
+  // is a node: where faces may part there are several at a place.
+  const auto nodes = at(state.node_count());
+  frame.points.reserve(nodes);
+  for (Index n = 0; n < state.node_count(); ++n) {
+    const bool used = state.node_size[at(n)] > 0;  // else a vertex that no triangle has
+    frame.points.push_back(used ? state.node_reference(n) + state.displacement[at(n)] : Vec2{});
+  }
   frame.triangles.reserve(at(triangles));
-  for (Index t = 0; t < triangles; ++t) frame.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  for (Index t = 0; t < triangles; ++t) {
+    const Index* n = &state.node_of_corner[at(3 * t)];
+    frame.triangles.push_back({n[0], n[1], n[2]});
+  }
   const auto add_of_nodes = [&](const char* name, const std::vector<Vec2>& values) {
     if (!wanted(name)) return;
     Field field{name, 2, {}};
-    field.values.reserve(2 * corners);
-    for (const Index n : state.node_of_corner) {
-      field.add(values[at(n)].x);
-      field.add(values[at(n)].y);
+    field.values.reserve(2 * nodes);
+    for (const Vec2 v : values) {
+      field.add(v.x);
+      field.add(v.y);
     }
     frame.point_fields.push_back(std::move(field));
   };
@@ -47,7 +54,7 @@ FieldFrame field_frame(const Simulation& simulation, const std::vector<std::stri
   add_of_nodes("velocity_m_s", state.velocity);
   if (wanted("stress_Pa")) {
     Field stress{"stress_Pa", 3, {}};
-    stress.values.reserve(corners);
+    stress.values.reserve(at(3 * triangles));
     for (Index t = 0; t < triangles; ++t) {
       const Sym2 s = simulation.stress(t);
       for (const double value : {s.xx, s.yy, s.xy}) stress.add(value);

@@ -156,6 +156,24 @@ void aim(const State& state, const Link& link, Index vertex, Vec2 on_node_before
   (first ? target.given0 : target.given1) = true;
 }
 
+// Those at vertices where nodes have parted, as far as they were there before: what they bear is not known.
+std::vector<Index> intact_elements_at(const State& state, std::span<const Parting> partings, Index first_new) {
+  const CohesiveElements& c = state.cohesive;
+  std::vector<Index> elements;
+  for (const Parting& parting : partings) {
+    for (const Index corner : corners_at(state, parting.vertex)) {
+      for (const Index side : {corner % 3, (corner + 2) % 3}) {
+        const Index element = c.of_edge[at(state.mesh->triangle_edges[at(corner / 3)][at(side)])];
+        if (element >= 0 && element < first_new && c.status[at(element)] == CohesiveStatus::intact)
+          elements.push_back(element);
+      }
+    }
+  }
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  return elements;
+}
+
 }  // namespace
 
 // Sets the offsets with which an element bears end forces where it is now. Where the law is curved the
@@ -242,11 +260,12 @@ std::vector<Index> Cohesive::insert(State& state, std::span<const Index> edges,
   // Elements whose ends change what they bear, and what that is; a new one bears what the stresses ask.
   std::map<Index, Target> target;
   for (Index e = first_new; e < c.count(); ++e) {
-    start_history(state, e);
+    begin_history(state, e);
     c.histories.back().penalty = penalty[at(e - first_new)];
     const Vec2 f = stress_force(state, rock, e);
     target[e] = {{f, f}};
   }
+  for (const Index e : intact_elements_at(state, partings, first_new)) place_points(state, e);
   for (const Parting& parting : partings) {
     const auto belongs = [&](Index node) {
       return std::find(parting.nodes.begin(), parting.nodes.end(), node) != parting.nodes.end();

@@ -92,31 +92,32 @@ class BenzeggaghKenane final : public CohesiveLaw {
  private:
   double damage_at(const CohesiveMaterial& m, double length, double compression, double pull,
                    double slid) const {
-    const double separation = std::hypot(pull, slid);
-    if (separation == 0.0) return 0.0;
-    const Ray ray = ray_of(m, length, compression, pull / separation, std::abs(slid) / separation);
-    if (separation <= ray.onset) return 0.0;
-    const double done = (separation - ray.onset) / ray.length;
-    return done < 1.0 ? 1.0 - softening(done) * ray.onset / separation : 1.0;
-  }
-
-  Ray ray_of(const CohesiveMaterial& m, double length, double compression, double across,
-             double along) const {
+    const double separation = std::sqrt(pull * pull + slid * slid);
     const double k = m.penalty / length;
-    if (across == 0.0) {
+    if (pull == 0.0) {
       // What is above residual friction softens.
       const double strength = shear_strength(m, compression);
       const double drop = std::max(strength - residual_strength(m, compression), 0.1 * strength);
-      return {drop / k, softening_slip(m, length, compression)};
+      if (k * separation <= drop) return 0.0;
+      return damage_on({drop / k, softening_slip(m, length, compression)}, separation);
     }
+    if (k * separation <= std::min(m.tensile_strength, m.cohesion)) return 0.0;  // on no ray
+    const double across = pull / separation, along = std::abs(slid) / separation;
     const double tension = m.tensile_strength / across;
     const double peak = along * tension > m.cohesion ? m.cohesion / along : tension;  // t₀
+    if (k * separation <= peak) return 0.0;
     const double share = along * along, rise = m.fracture_energy_mode2 - m.fracture_energy_mode1;
     const double energy = m.fracture_energy_mode1 + rise * power(share, m.mixed_mode_exponent);
     const double onset = peak / k;
-    if (m.calibration == Calibration::y_geo) return {onset, y_geo_factor() * energy / peak};
+    if (m.calibration == Calibration::y_geo)
+      return damage_on({onset, y_geo_factor() * energy / peak}, separation);
     const double left = std::max(energy - 0.5 * peak * onset, 0.01 * energy);
-    return {onset, left / (softening_integral() * peak)};
+    return damage_on({onset, left / (softening_integral() * peak)}, separation);
+  }
+
+  double damage_on(const Ray& ray, double separation) const {
+    const double done = (separation - ray.onset) / ray.length;
+    return done < 1.0 ? 1.0 - softening(done) * ray.onset / separation : 1.0;
   }
 };
 

@@ -82,6 +82,12 @@ StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
   return {normal, shear, normal + shear + friction - (now.stored - before.stored)};
 }
 
+// Into the cache: what is met in the order of activation lies anywhere.
+void fetch(const CohesiveHistory* h) {
+  const char* const from = reinterpret_cast<const char*>(h);
+  for (std::size_t byte = 0; byte < sizeof(CohesiveHistory); byte += 64) __builtin_prefetch(from + byte, 1);
+}
+
 double utilisation_of(const CohesiveMaterial& m, double normal, double shear) {
   const double pull = std::max(normal, 0.0) / m.tensile_strength;
   const double push = shear / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
@@ -111,10 +117,21 @@ double Cohesive::utilisation(const CohesiveMaterial& rock, Sym2 stress, Vec2 alo
   return utilisation_of(m, dot(traction, right_normal(along)), dot(traction, along));
 }
 
-double Cohesive::utilisation(const State& state, const CohesiveHistory& h) const {
-  const CohesiveMaterial m = material(state, h.element);
+double Cohesive::utilisation(const State& state, Index element) const {
+  const CohesiveElements& c = state.cohesive;
+  const CohesiveMaterial m = material(state, element);
   double most = 0.0;
-  for (const CohesivePoint& p : h.point) {
+  if (c.status[at(element)] == CohesiveStatus::intact) {
+    const EndSeparation w = separation(state, element);  // the middle lies between the ends
+    const auto of_end = [&](double opening, double slip) {
+      const ElasticTraction t =
+          elastic_traction(m.penalty * c.inverse_length[at(element)], law_->curvature(), m.tensile_strength,
+                           m.cohesion, m.tan_friction, opening, slip);
+      return utilisation_of(m, t.normal, t.shear);
+    };
+    return std::max(of_end(w.opening0, w.slip0), of_end(w.opening1, w.slip1));
+  }
+  for (const CohesivePoint& p : c.histories[at(c.history_of[at(element)])].point) {
     most = std::max(most, p.damage > 0.0 ? 1.0 : utilisation_of(m, p.normal, p.shear + p.friction));
   }
   return most;
@@ -197,10 +214,12 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   }
   if (yielding && h.yield_time < 0.0) {
     h.yield_time = state.time;
-    h.kinetic_at_yield = face_kinetic_energy(state, h.element);
+    h.face_mass = face_masses(state, h.element);
+    h.kinetic_at_yield = face_kinetic_energy(state, h.element, h.face_mass);
   }
   if (!was_broken && yielding) {
-    h.kinetic_rise = std::max(h.kinetic_rise, face_kinetic_energy(state, h.element) - h.kinetic_at_yield);
+    const double kinetic = face_kinetic_energy(state, h.element, h.face_mass);
+    h.kinetic_rise = std::max(h.kinetic_rise, kinetic - h.kinetic_at_yield);
   }
   h.fracture_energy += fracture;
   h.sliding_work += sliding;
@@ -217,55 +236,48 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
                           p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
 }
 
-void Cohesive::start_history(State& state, Index element) const {
+void Cohesive::begin_history(State& state, Index element) {
   CohesiveElements& c = state.cohesive;
-  CohesiveHistory h;
-  h.element = element;
-  // Where it stood at the end of the last step it was elastic still: move() there is now.
-  const EndSeparation w = separation(state, element);
-  const double length = norm(c.direction[at(element)]);
-  const CohesiveMaterial material = this->material(state, element);
-  for (std::size_t q = 0; q < 3; ++q) {
-    const double o = q == 0 ? w.opening0 : q == 1 ? w.opening1 : 0.5 * (w.opening0 + w.opening1);
-    const double s = q == 0 ? w.slip0 : q == 1 ? w.slip1 : 0.5 * (w.slip0 + w.slip1);
-    law_->move(material, length, o, s, h.point[q]);
-  }
+  if (c.history_of[at(element)] >= 0) return;
   c.history_of[at(element)] = static_cast<Index>(c.histories.size());
-  c.status[at(element)] = CohesiveStatus::active;
-  c.histories.push_back(h);
+  c.histories.emplace_back().element = element;
 }
 
-void Cohesive::load_springs(State& state, Index element) const {
+void Cohesive::activate(State& state, Index element) {
+  begin_history(state, element);
+  if (state.cohesive.status[at(element)] != CohesiveStatus::intact) return;
+  state.cohesive.status[at(element)] = CohesiveStatus::active;
+  state.cohesive.active.push_back(element);
+}
+
+// Points and force of an undamaged element, where it stands.
+void Cohesive::place_points(State& state, Index element) const {
   CohesiveElements& c = state.cohesive;
-  CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
+  auto& p = c.histories[at(c.history_of[at(element)])].point;
+  const EndSeparation w = separation(state, element);
   const double length = norm(c.direction[at(element)]);
   const CohesiveMaterial m = material(state, element);
-  const EndSeparation w = separation(state, element);
-  for (std::size_t q = 0; q < 3; ++q) {
-    CohesivePoint& p = h.point[q];
-    const double before = p.stored;
-    law_->move(m, length,
-               q == 0   ? w.opening0
-               : q == 1 ? w.opening1
-                        : 0.5 * (w.opening0 + w.opening1),
-               q == 0   ? w.slip0
-               : q == 1 ? w.slip1
-                        : 0.5 * (w.slip0 + w.slip1),
-               p);
-    p.inserted += p.stored - before;
-  }
-  const auto& p = h.point;
+  law_->move(m, length, w.opening0, w.slip0, p[0]);
+  law_->move(m, length, w.opening1, w.slip1, p[1]);
+  law_->move(m, length, 0.5 * (w.opening0 + w.opening1), 0.5 * (w.slip0 + w.slip1), p[2]);
   c.force[at(element)] =
       end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
                  p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
 }
 
+void Cohesive::load_springs(State& state, Index element) const {
+  auto& points = state.cohesive.histories[at(state.cohesive.history_of[at(element)])].point;
+  for (CohesivePoint& p : points) p.inserted -= p.stored;
+  place_points(state, element);
+  for (CohesivePoint& p : points) p.inserted += p.stored;
+}
+
 void Cohesive::add_tractions(State& state) {
   CohesiveElements& c = state.cohesive;
-  std::vector<std::vector<Index>> near(at(block_count(c.initial)));
-  for_each_block(c.initial, [&](Index begin, Index end, Index block) {
+  std::vector<std::vector<Index>> near(at(block_count(c.count())));
+  for_each_block(c.count(), [&](Index begin, Index end, Index block) {
     for (Index i = begin; i < end; ++i) {
-      if (c.history_of[at(i)] >= 0) continue;
+      if (c.status[at(i)] != CohesiveStatus::intact) continue;
       const auto f = elastic_element(state, material(state, i), law_->curvature(), i);
       c.force[at(i)] = {{f.x0, f.y0}, {f.x1, f.y1}};
       if (f.beyond > 0.0) near[at(block)].push_back(i);
@@ -282,7 +294,8 @@ void Cohesive::start_histories(State& state, std::span<const Index> elements, do
     for (std::size_t k = 0; k < 4; ++k) now[k] = state.displacement[at(nodes[k])];
     for (std::size_t k = 0; k < 4; ++k)
       state.displacement[at(nodes[k])] = now[k] - before * state.velocity[at(nodes[k])];
-    start_history(state, element);
+    activate(state, element);
+    place_points(state, element);  // it was elastic there still
     for (std::size_t k = 0; k < 4; ++k) state.displacement[at(nodes[k])] = now[k];
   }
 }
@@ -290,12 +303,16 @@ void Cohesive::start_histories(State& state, std::span<const Index> elements, do
 void Cohesive::advance_histories(State& state) {
   CohesiveElements& c = state.cohesive;
   newly_broken_.clear();
-  const Index active = static_cast<Index>(c.histories.size());
+  const auto active = static_cast<Index>(c.active.size());
   std::vector<Dissipation> partial(at(block_count(active)));
   std::vector<std::vector<Index>> broken(partial.size());
+  const auto history = [&](Index j) -> CohesiveHistory& {
+    return c.histories[at(c.history_of[at(c.active[at(j)])])];
+  };
   for_each_block(active, [&](Index begin, Index end, Index block) {
     for (Index j = begin; j < end; ++j) {
-      CohesiveHistory& h = c.histories[at(j)];
+      CohesiveHistory& h = history(j);
+      fetch(&history(std::min(j + 2, active - 1)));
       const bool was_intact = c.status[at(h.element)] == CohesiveStatus::active;
       evaluate_active(state, h, partial[at(block)]);
       if (was_intact && c.status[at(h.element)] == CohesiveStatus::broken)
@@ -315,12 +332,8 @@ void Cohesive::advance_histories(State& state) {
 
 void Cohesive::cut(State& state, Index element) const {
   CohesiveElements& c = state.cohesive;
-  if (c.history_of[at(element)] < 0) {
-    c.history_of[at(element)] = static_cast<Index>(c.histories.size());
-    c.histories.emplace_back();
-  }
+  activate(state, element);
   CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
-  h.element = element;
   h.break_time = state.time;
   for (CohesivePoint& p : h.point) {
     p.damage = 1.0;
@@ -331,7 +344,9 @@ void Cohesive::cut(State& state, Index element) const {
 
 bool Cohesive::unbond(State& state, Index element) const {
   CohesiveElements& c = state.cohesive;
-  if (c.history_of[at(element)] < 0) start_history(state, element);
+  const bool intact = c.status[at(element)] == CohesiveStatus::intact;
+  activate(state, element);
+  if (intact) place_points(state, element);
   CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
   const CohesiveMaterial m = material(state, element);
   const double stiffness = m.tangential_penalty * c.inverse_length[at(element)];
@@ -356,11 +371,16 @@ double Cohesive::stored_energy(const State& state) const {
     double sum = 0.0;
     for (Index i = begin; i < end; ++i) {
       const double length = norm(c.direction[at(i)]);
-      if (c.history_of[at(i)] >= 0) {
-        const auto& p = c.histories[at(c.history_of[at(i)])].point;
-        sum += length / 6.0 * (p[0].recoverable() + p[1].recoverable() + 4.0 * p[2].recoverable());
+      const Index history = c.history_of[at(i)];
+      const auto of_points = [&](const auto& value) {
+        const auto& p = c.histories[at(history)].point;
+        return length / 6.0 * (value(p[0]) + value(p[1]) + 4.0 * value(p[2]));
+      };
+      if (c.status[at(i)] != CohesiveStatus::intact) {
+        sum += of_points([](const CohesivePoint& p) { return p.recoverable(); });
         continue;
       }
+      if (history >= 0) sum -= of_points([](const CohesivePoint& p) { return p.inserted; });
       const CohesiveMaterial m = material(state, i);
       const EndSeparation w = separation(state, i);
       const auto energy = [&](double opening, double slip) {

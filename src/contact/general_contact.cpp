@@ -75,12 +75,12 @@ void GeneralContact::update(State& state) {
   released_.clear();
   forces_.clear();
   Index broken = 0;
-  for (const CohesiveHistory& h : state.cohesive.histories) {
-    const CohesiveStatus status = state.cohesive.status[at(h.element)];
+  for (const Index element : state.cohesive.active) {
+    const CohesiveStatus status = state.cohesive.status[at(element)];
     if (status < CohesiveStatus::broken) continue;
     ++broken;
     if (status == CohesiveStatus::released) search_->any_released = true;
-    if (status == CohesiveStatus::broken && has_parted(state, h.element)) released_.push_back(h.element);
+    if (status == CohesiveStatus::broken && has_parted(state, element)) released_.push_back(element);
   }
   std::sort(released_.begin(), released_.end());
 

@@ -148,16 +148,16 @@ void Simulation::insert_stressed() {
     }
   }
   // Elements that bear that much and have an end that is tied yet: the tip of a fracture to be.
-  for (const CohesiveHistory& h : state_.cohesive.histories) {
+  for (Index element = 0; element < state_.cohesive.count(); ++element) {
+    const auto& n = state_.cohesive.nodes[at(element)];
+    if (n[0] != n[2] && n[1] != n[3]) continue;
     // The end of a joint without cohesion stays tied until the rock there is near its strength.
-    const bool unbonded = state_.cohesive.status[at(h.element)] >= CohesiveStatus::broken &&
-                          h.fracture_energy == 0.0 &&
-                          mesh.edges[at(state_.cohesive.edge[at(h.element)])].joint >= 0;
-    if (unbonded) continue;
-    const auto& n = state_.cohesive.nodes[at(h.element)];
-    if ((n[0] != n[2] && n[1] != n[3]) || cohesive_->utilisation(state_, h) < scene_.insertion.threshold)
-      continue;
-    const auto& ends = mesh.edges[at(state_.cohesive.edge[at(h.element)])].vertex;
+    const CohesiveHistory& h = state_.cohesive.histories[at(state_.cohesive.history_of[at(element)])];
+    const Edge& edge = mesh.edges[at(state_.cohesive.edge[at(element)])];
+    const bool unbonded = state_.cohesive.status[at(element)] >= CohesiveStatus::broken &&
+                          h.fracture_energy == 0.0 && edge.joint >= 0;
+    if (unbonded || cohesive_->utilisation(state_, element) < scene_.insertion.threshold) continue;
+    const auto& ends = edge.vertex;
     if (n[0] == n[2]) add_tied_edges_at(ends[0], edges);
     if (n[1] == n[3]) add_tied_edges_at(ends[1], edges);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/core/parallel.hpp"
@@ -154,12 +155,10 @@ void Simulation::move_nodes(double dt) {
     state_.dissipation.viscous += dt * p;
 }
 
-void Simulation::heed_new_histories() {
-  const auto& histories = state_.cohesive.histories;
-  std::vector<Index> fresh;
-  for (; histories_known_ < histories.size(); ++histories_known_)
-    fresh.push_back(histories[histories_known_].element);
+void Simulation::heed_activated() {
+  const auto fresh = std::span(state_.cohesive.active).subspan(active_known_);
   if (!fresh.empty()) tiles_->elements_changed(state_, physics(), fresh);
+  active_known_ = state_.cohesive.active.size();
 }
 
 void Simulation::listen_to_slips() {
@@ -174,7 +173,7 @@ void Simulation::listen_to_slips() {
 void Simulation::advance(double dt, Energies* account) {
   stopwatch_.start();
   new_events_.clear();
-  heed_new_histories();
+  heed_activated();
   if (cohesive_) {
     cohesive_->advance_histories(state_);
     if (!damage_ && !stressed_.empty()) insert_stressed();

@@ -214,7 +214,6 @@ void insert_all(State& state) {
   for (Index e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edges[at(e)].kind == EdgeKind::interior) append_element(state, e, 0);
   }
-  state.cohesive.initial = state.cohesive.count();
 }
 
 std::span<const Index> corners_at(const State& state, Index vertex) {
@@ -240,19 +239,26 @@ std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
   return partings;
 }
 
-double face_kinetic_energy(const State& state, Index element) {
-  const auto kinetic = [&](Index corner) {
-    const std::size_t node = at(state.node_of_corner[at(corner)]);
-    if (state.inverse_mass[node] == 0.0) return 0.0;
-    const double whole = 0.5 * dot(state.velocity[node], state.velocity[node]) / state.inverse_mass[node];
-    if (state.node_size[node] == 1) return whole;
-    const Index* corners = state.node_corners.data() + state.node_first[node];
-    return whole * mass_share(state, corner) / mass_share(state, corners, state.node_size[node]);
-  };
-  const Edge& edge = state.mesh->edges[at(state.cohesive.edge[at(element)])];
-  const Index a = 3 * edge.triangle[0], b = 3 * edge.triangle[1];
-  return kinetic(a + edge.side[0]) + kinetic(a + (edge.side[0] + 1) % 3) +
-         kinetic(b + (edge.side[1] + 1) % 3) + kinetic(b + edge.side[1]);
+std::array<double, 4> face_masses(const State& state, Index element) {
+  const auto corners = corners_of_edge(state.mesh->edges[at(state.cohesive.edge[at(element)])]);
+  std::array<double, 4> masses{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t node = at(state.node_of_corner[at(corners[k])]);
+    if (state.inverse_mass[node] == 0.0) continue;
+    const Index* of_node = state.node_corners.data() + state.node_first[node];
+    masses[k] = mass_share(state, corners[k]) / mass_share(state, of_node, state.node_size[node]) /
+                state.inverse_mass[node];
+  }
+  return masses;
+}
+
+double face_kinetic_energy(const State& state, Index element, const std::array<double, 4>& masses) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 v = state.velocity[at(state.cohesive.nodes[at(element)][k])];
+    sum += 0.5 * masses[k] * dot(v, v);
+  }
+  return sum;
 }
 
 }  // namespace crackle

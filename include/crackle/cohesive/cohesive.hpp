@@ -39,10 +39,10 @@ class Cohesive {
   /// Evaluates all elements: writes their end forces, grows damage, books dissipation to the state
   /// and collects the elements that broke (newly_broken()).
   void add_tractions(State& state);
-  /// The same for the elements with a history alone: Tiles finds the forces of the intact ones.
+  /// The same for those that are not intact alone: Tiles finds the forces of the intact ones.
   void advance_histories(State& state);
 
-  /// Gives intact elements that are near their strength a history: from now on they are evaluated point by
+  /// Makes intact elements that are near their strength active: from now on they are evaluated point by
   /// point, first from where they were some time [s] before, when that was seen, so that what they have done
   /// since is booked. @param elements in ascending order
   void start_histories(State& state, std::span<const Index> elements, double before);
@@ -78,7 +78,7 @@ class Cohesive {
   /// √((⟨σ_n⟩/f_t)² + (τ/f_s)²). @param rock its material, not that of the plane @param along the edge, unit
   static double utilisation(const CohesiveMaterial& rock, Sym2 stress, Vec2 along);
   /// The same of the most loaded point of an element; 1 or more once it is damaged.
-  double utilisation(const State& state, const CohesiveHistory& history) const;
+  double utilisation(const State& state, Index element) const;
 
   /// Recoverable energy of all elements [J/m].
   double stored_energy(const State& state) const;
@@ -91,12 +91,11 @@ class Cohesive {
     return norm(state.cohesive.direction[static_cast<std::size_t>(element)]);
   }
 
-  /// Elements with a history are evaluated one by one; tells which share of the work that is.
-  Index active_count(const State& state) const { return static_cast<Index>(state.cohesive.histories.size()); }
-
  private:
   void evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const;
-  void start_history(State& state, Index element) const;
+  static void begin_history(State& state, Index element);
+  static void activate(State& state, Index element);
+  void place_points(State& state, Index element) const;
   bool bear(State& state, Index element, const EndForces& target) const;
   void load_springs(State& state, Index element) const;
 

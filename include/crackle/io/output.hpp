@@ -72,7 +72,7 @@ struct Field {
   void add(double value) { values.push_back(static_cast<float>(value)); }
 };
 
-/// What one frame of fields/*.vtu shows: every triangle with its own three points, so that
+/// What one frame of fields/*.vtu shows. Where rock has come apart there are several points at a place, so that
 /// fractures are seen as gaps.
 struct FieldFrame {
   double time = 0.0;                            ///< [s]

@@ -218,7 +218,7 @@ class Simulation {
   void relax();
   void advance(double dt, Energies* account);
   void move_nodes(double dt);
-  void heed_new_histories();
+  void heed_activated();
   Tiles::Physics physics() const { return {bulk_, cohesive()}; }
   void listen_to_slips();
   static double longest_joint_edge(const Mesh& mesh);
@@ -254,7 +254,7 @@ class Simulation {
   Stopwatch stopwatch_;
   std::vector<SeismicEvent> new_events_;
   std::optional<Tiles> tiles_;
-  std::size_t histories_known_ = 0;  // to the tiles
+  std::size_t active_known_ = 0;  // of the active elements, to the tiles
   std::vector<Vec2> velocity_before_;
   StressScreen screen_;                 // on demand: near the threshold
   std::vector<std::uint8_t> stressed_;  // per triangle, of the last step

@@ -5,7 +5,7 @@
 // forces are summed there, and nodes that no other tile has a corner of move at once. What several tiles have
 // a part in is summed over the tiles in their order and moves after. A cohesive element belongs to the tile
 // of its face a, which has its other two nodes among its own: it is evaluated there while it is intact; the
-// force of one with a history (state.cohesive.force) is only added.
+// force of an active one (state.cohesive.force) is only added.
 //
 // Memory moved and operations per triangle and step: cases/scaling/README.md.
 #pragma once
@@ -41,12 +41,12 @@ class Tiles {
   const std::vector<double>& move(State& state, const Physics& physics, double dt, const StressScreen& screen,
                                   std::span<std::uint8_t> stressed, std::span<char> tile_stressed);
 
-  /// Elements that the last move() found near their strength and that have no history yet, ascending.
+  /// Elements that the last move() found near their strength and that are not active yet, ascending.
   std::span<const Index> near() const { return near_; }
 
   /// Tells that triangles were damaged: their forces (state.damage) are only added.
   void triangles_changed(const State& state, const Physics& physics, std::span<const Index> triangles);
-  /// Tells that elements have got a history.
+  /// Tells that elements have become active.
   void elements_changed(const State& state, const Physics& physics, std::span<const Index> elements);
   /// Tells that elements were inserted on edges of the mesh, and nodes at their ends may have parted.
   void inserted(const State& state, const Physics& physics, std::span<const Index> edges);

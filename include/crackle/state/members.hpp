@@ -57,6 +57,7 @@ void members(CohesiveHistory& h, V&& v) {
   v("slid", h.slid);
   v("rubbed", h.rubbed);
   v("yield_time", h.yield_time);
+  v("face_mass", h.face_mass);
   v("kinetic_at_yield", h.kinetic_at_yield);
   v("kinetic_rise", h.kinetic_rise);
   v("break_time", h.break_time);
@@ -81,8 +82,8 @@ void members(CohesiveElements& c, V&& v) {
   v("status", c.status);
   v("history_of", c.history_of);
   v("histories", c.histories);
+  v("active", c.active);
   v("of_edge", c.of_edge);
-  v("initial", c.initial);
 }
 
 template <class V>

@@ -16,7 +16,7 @@ namespace crackle {
 /// Life of a cohesive element.
 enum class CohesiveStatus : std::uint8_t {
   intact = 0,    ///< on its elastic branch, evaluated by the fast loop
-  active = 1,    ///< near or past its strength: has a history, evaluated point by point
+  active = 1,    ///< near or past its strength: evaluated point by point, from then on
   broken = 2,    ///< no cohesion left; faces still lie opposite one another and touch as a pair
   released = 3,  ///< faces have moved past one another: general contact looks after them
 };
@@ -43,7 +43,8 @@ struct CohesivePoint {
   double recoverable() const { return stored - inserted + repaid; }
 };
 
-/// History of one active or broken cohesive element.
+/// History of one cohesive element that was inserted on demand, is active or broken. While it is intact its
+/// points are those of when it was last loaded by an insertion.
 struct CohesiveHistory {
   Index element = -1;
   std::array<CohesivePoint, 3> point;
@@ -55,6 +56,7 @@ struct CohesiveHistory {
   double slid = 0.0;              ///< in the last step, past sticking: mean over its points [m]
   double rubbed = 0.0;            ///< dissipated by friction in the last step [J/m]
   double yield_time = -1.0;       ///< first damage [s]; -1: none yet
+  std::array<double, 4> face_mass{};  ///< see face_masses(), once it yields [kg/m]
   double kinetic_at_yield = 0.0;  ///< of its faces, see face_kinetic_energy() [J/m]
   double kinetic_rise = 0.0;      ///< largest rise above kinetic_at_yield [J/m]
   double break_time = -1.0;       ///< [s]; -1: not broken
@@ -78,10 +80,10 @@ struct CohesiveElements {
   std::vector<std::uint16_t> material;  ///< number of its material
   std::vector<EndForces> force;         ///< of the last evaluation
   std::vector<CohesiveStatus> status;
-  std::vector<Index> history_of;           ///< into histories; -1: intact
-  std::vector<CohesiveHistory> histories;  ///< in order of activation
+  std::vector<Index> history_of;           ///< into histories; -1: none, intact
+  std::vector<CohesiveHistory> histories;  ///< in the order in which they began
+  std::vector<Index> active;               ///< elements that are not intact, in order of activation
   std::vector<Index> of_edge;              ///< element of a mesh edge; -1: tied, or a boundary
-  Index initial = 0;  ///< elements there from the start on all edges; later ones have a history at once
 
   Index count() const { return static_cast<Index>(edge.size()); }
 };
@@ -256,8 +258,14 @@ struct Parting {
 std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
                                      std::span<const std::uint16_t> material);
 
-/// Kinetic energy [J/m] of the four corners at the faces of a cohesive element, each with its third of its
-/// triangle's mass: the same however many corners move together as a node. Fixed nodes count nothing.
-double face_kinetic_energy(const State& state, Index element);
+/// Masses [kg/m] of the four corners at the faces of a cohesive element (a0, a1, b0, b1), each a third of its
+/// triangle's: the same however many corners move together as a node. 0 where the node is fixed.
+std::array<double, 4> face_masses(const State& state, Index element);
+
+/// Kinetic energy [J/m] of these corners.
+double face_kinetic_energy(const State& state, Index element, const std::array<double, 4>& masses);
+inline double face_kinetic_energy(const State& state, Index element) {
+  return face_kinetic_energy(state, element, face_masses(state, element));
+}
 
 }  // namespace crackle

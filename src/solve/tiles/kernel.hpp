@@ -80,7 +80,7 @@ struct ElementWork {
   const double* displacement;
   double* force;
   ElasticLimits<double> limits;
-  /// [group][tensile strength, cohesion, tan friction][lane] where they are not the same in all; else null
+  /// [group][tensile strength, cohesion, tan friction, penalty][lane], where not the same in all; else null
   const double* limit_rows;
   std::uint8_t* near;  ///< [group][lane], not zero near the strength
   Ahead ahead;

@@ -226,8 +226,8 @@ void elements(const ElementWork& w) {
                               row(numbers + 6 * lanes)};
     ElasticForces<V> f;
     if (w.limit_rows != nullptr) {
-      const double* limits = w.limit_rows + 3 * lanes * g + lane;
-      f = elastic_forces(e, ElasticLimits<V>{w.limits.penalty + V{}, row(limits), row(limits + lanes),
+      const double* limits = w.limit_rows + 4 * lanes * g + lane;
+      f = elastic_forces(e, ElasticLimits<V>{row(limits + 3 * lanes), row(limits), row(limits + lanes),
                                              row(limits + 2 * lanes), w.limits.curvature});
     } else {
       f = elastic_forces(e, w.limits);

@@ -233,7 +233,7 @@ void Tiles::list_elements(const State& state, const Cohesive* cohesive, Index i)
     const Index code = state.element_on_side[at(corner)];
     if (code < 0 || code % 2 != 0) continue;  // listed from face a
     const Index element = code / 2;
-    if (c.history_of[at(element)] < 0) {
+    if (c.status[at(element)] == CohesiveStatus::intact) {
       intact.push_back(element);
       continue;
     }
@@ -255,10 +255,11 @@ void Tiles::list_elements(const State& state, const Cohesive* cohesive, Index i)
   tile.ends.resize(at(4 * lanes * groups));
   tile.numbers.resize(at(7 * groups));
   const auto& materials = cohesive->materials();
-  const bool bedded = std::any_of(tile.batches.begin(), tile.batches.end(), [&](const Tile::Batch& batch) {
-    return bool(materials[batch.material].bedding);
+  // Of its direction in bedded rock; those inserted on demand have their own penalty.
+  const bool own = std::any_of(intact.begin(), intact.end(), [&](Index element) {
+    return c.history_of[at(element)] >= 0 || bool(materials[c.material[at(element)]].bedding);
   });
-  tile.limits.assign(bedded ? at(3 * groups) : 0, {});
+  tile.limits.assign(own ? at(4 * groups) : 0, {});
   auto next = intact.begin();
   for (const Tile::Batch& batch : tile.batches) {
     for (Index j = 0; j < batch.groups * lanes; ++j) {
@@ -266,12 +267,13 @@ void Tiles::list_elements(const State& state, const Cohesive* cohesive, Index i)
       const bool real = next != intact.end() && c.material[at(*next)] == batch.material;
       const Index element = real ? *next++ : -1;
       set_element(state, tile, batch.first + p.group, p.lane, element);
-      if (!bedded) continue;
+      if (!own) continue;
       const CohesiveMaterial m = real ? cohesive->material(state, element) : materials[batch.material];
-      tiles::Row* limits = &tile.limits[at(3 * (batch.first + p.group))];
+      tiles::Row* limits = &tile.limits[at(4 * (batch.first + p.group))];
       limits[0].lane[at(p.lane)] = m.tensile_strength;
       limits[1].lane[at(p.lane)] = m.cohesion;
       limits[2].lane[at(p.lane)] = m.tan_friction;
+      limits[3].lane[at(p.lane)] = m.penalty;
     }
   }
 }

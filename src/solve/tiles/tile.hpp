@@ -74,7 +74,7 @@ struct Tiles::Tile {
   std::vector<Index> elements;      // evaluated here: [group][lane]; -1: none
   std::vector<std::uint16_t> ends;  // [group][end][lane]
   std::vector<tiles::Row> numbers;  // [group][7]
-  std::vector<tiles::Row> limits;   // [group][3] in bedded rock; empty: those of the materials
+  std::vector<tiles::Row> limits;   // [group][4]; empty: those of the materials
   std::vector<Added> added;
   std::vector<Vec2> partial;  // forces on shared nodes
   // Shared nodes of which this is the first tile: their parts in all tiles.

@@ -143,7 +143,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
          s.displacement.data(),
          s.force.data(),
          {m.penalty, m.tensile_strength, m.cohesion, m.tan_friction, physics.cohesive->law().curvature()},
-         tile.limits.empty() ? nullptr : tile.limits.front().lane.data() + 3 * lanes * batch.first,
+         tile.limits.empty() ? nullptr : tile.limits.front().lane.data() + 4 * lanes * batch.first,
          s.near.data() + lanes * batch.first,
          batch.first == 0 ? rest : tiles::Ahead{}});
   }
