@@ -39,7 +39,7 @@ Simulation::Simulation(Scene scene)
         displacement[at(scene_.mesh->triangles[c / 3][c % 3])];
   }
   set_mass(state_, bulk_);
-  if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
+  if (bulk_.viscous()) state_.strain_rate.resize(at(block_count(scene_.mesh->triangle_count())));
   if (scene_.law) {
     cohesive_.emplace(scene_.law, materials_.all);
     if (split) {

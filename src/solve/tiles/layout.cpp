@@ -83,7 +83,7 @@ Tiles::Reads::Reads(const State& state, const Tile& tile) {
   add(range_of(tile.numbers.data(), tile.numbers.size()));
   if (!tile.viscosity.empty()) {
     add(range_of(tile.viscosity.data(), tile.viscosity.size()));
-    add(range_of(state.strain_rate.data() + tile.begin, at(tile.end - tile.begin)));
+    add(range_of(state.strain_rate.data() + tile.begin / block_size, 1));
   }
 }
 

@@ -92,6 +92,8 @@ struct Tiles::Tile {
     if (places.empty()) return tiles::for_each_place(end - begin, groups(), work);
     for (Index t = 0; t < end - begin; ++t) work(t, places[static_cast<std::size_t>(t)]);
   }
+  /// Whole and of one rock: the state's strain rates lie in its order.
+  bool regular() const { return places.empty() && end - begin == block_size; }
   int element_groups() const { return static_cast<int>(elements.size()) / tiles::lanes; }
   // Twice the number of a node in the tile.
   std::uint16_t name(Index node) const { return static_cast<std::uint16_t>(2 * local(node)); }
