@@ -4,7 +4,7 @@
 // mesh while its ledger still closes. It shows before, in
 //   made energy       cohesive elements gave back more than they had taken: a warning from 2 % of
 //                     what broke and rubbed, a stop from 20 %
-//   grid oscillation  ½ Σ m v(n−½)·v(n+½) below −1 % of the largest energy: velocities change sign from step
+//   grid oscillation  ½ Σ m v(n−½)·v(n+½) below −10 % of the largest energy: velocities change sign from step
 //                     to step, as at the highest frequency of the mesh and above
 //   stray break       an element breaks that touches no fracture, cohesive zone or free face, in rock that
 //   bears

@@ -77,8 +77,9 @@ struct Tiles::Tile {
   std::vector<tiles::Row> limits;   // [group][4]; empty: those of the materials
   std::vector<Added> added;
   std::vector<Vec2> partial;  // forces on shared nodes
-  // Shared nodes of which this is the first tile: their parts in all tiles.
+  // Shared nodes of which this is the last tile: their parts in all tiles.
   std::vector<Index> owned;
+  std::vector<Index> from;           // the first tile that has a part in each
   std::vector<std::uint16_t> parts;  // of each
   std::vector<const Vec2*> part;
 

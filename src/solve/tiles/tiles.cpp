@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "crackle/solve/tiles.hpp"
 
+#include <omp.h>
+
 #include <cstring>
 
 #include "tile.hpp"
@@ -46,9 +48,21 @@ Tiles::~Tiles() = default;
 const std::vector<double>& Tiles::move(State& state, const Physics& physics, double dt,
                                        const StressScreen& screen, std::span<std::uint8_t> stressed,
                                        std::span<char> tile_stressed) {
-  tiles::for_each_tile(tiles_.size(),
-                       [&](Index i) { work(state, physics, i, dt, screen, stressed, tile_stressed); });
-  tiles::for_each_tile(tiles_.size(), [&](Index i) { move_shared(state, tiles_[at(i)], dt); });
+  // A node moves as soon as the last tile with a part in it is done, while its parts are in the cache yet;
+  // where another thread has one, when all are.
+  const auto count = static_cast<Index>(tiles_.size());
+#pragma omp parallel if (count > 1)
+  {
+    const Index threads = omp_get_num_threads(), thread = omp_get_thread_num();
+    const auto first_of = [&](Index t) { return static_cast<Index>(std::int64_t{count} * t / threads); };
+    const Index begin = first_of(thread), end = first_of(thread + 1);
+    for (Index i = begin; i < end; ++i) {
+      work(state, physics, i, dt, screen, stressed, tile_stressed);
+      move_shared(state, tiles_[at(i)], dt, begin, count);
+    }
+#pragma omp barrier
+    for (Index i = begin; i < end && begin > 0; ++i) move_shared(state, tiles_[at(i)], dt, 0, begin);
+  }
   near_.clear();
   for (const auto& found : near_of_tile_) near_.insert(near_.end(), found.begin(), found.end());
   std::sort(near_.begin(), near_.end());
@@ -197,9 +211,13 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
                 state.inverse_mass.data(), numbers(state.velocity), numbers(state.displacement)});
 }
 
-void Tiles::move_shared(State& state, const Tile& tile, double dt) const {
+void Tiles::move_shared(State& state, const Tile& tile, double dt, Index begin, Index end) {
   const Vec2* const* part = tile.part.data();
   for (std::size_t k = 0; k < tile.owned.size(); ++k) {
+    if (tile.from[k] < begin || tile.from[k] >= end) {
+      part += tile.parts[k];
+      continue;
+    }
     Vec2 force;
     for (std::uint16_t j = 0; j < tile.parts[k]; ++j) force += **part++;
     const std::size_t n = at(tile.owned[k]);
