@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "crackle/core/errors.hpp"
+#include "crackle/solve/lanczos.hpp"
 #include "frames.hpp"
 
 namespace crackle {
@@ -124,7 +125,10 @@ StableStep stable_step_of(const Scene& scene) {
   set_mass(state, bulk);
   if (!scene.absorbing_boundary && !scene.free_boundary && scene.loads.empty())
     fix_nodes(state, EdgeKind::outer);
-  if (!scene.law) return stable_step(state, bulk, nullptr);
+  if (!scene.law) {
+    const StableStep proven = stable_step(state, bulk, nullptr);
+    return scene.damage.law ? sharpened(proven, state, bulk, nullptr) : proven;
+  }
   const EdgeMaterials materials = edge_materials(scene);
   if (split) {
     insert_all(state);

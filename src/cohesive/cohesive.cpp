@@ -83,9 +83,14 @@ StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
 }
 
 // Into the cache: what is met in the order of activation lies anywhere.
-void fetch(const CohesiveHistory* h) {
-  const char* const from = reinterpret_cast<const char*>(h);
+void fetch(const State& state, Index element) {
+  const CohesiveElements& c = state.cohesive;
+  const char* const from = reinterpret_cast<const char*>(&c.histories[at(c.history_of[at(element)])]);
   for (std::size_t byte = 0; byte < sizeof(CohesiveHistory); byte += 64) __builtin_prefetch(from + byte, 1);
+  for (const Index n : c.nodes[at(element)]) {
+    __builtin_prefetch(&state.displacement[at(n)]);
+    __builtin_prefetch(&state.velocity[at(n)]);
+  }
 }
 
 double utilisation_of(const CohesiveMaterial& m, double normal, double shear) {
@@ -306,13 +311,10 @@ void Cohesive::advance_histories(State& state) {
   const auto active = static_cast<Index>(c.active.size());
   std::vector<Dissipation> partial(at(block_count(active)));
   std::vector<std::vector<Index>> broken(partial.size());
-  const auto history = [&](Index j) -> CohesiveHistory& {
-    return c.histories[at(c.history_of[at(c.active[at(j)])])];
-  };
   for_each_block(active, [&](Index begin, Index end, Index block) {
     for (Index j = begin; j < end; ++j) {
-      CohesiveHistory& h = history(j);
-      fetch(&history(std::min(j + 2, active - 1)));
+      CohesiveHistory& h = c.histories[at(c.history_of[at(c.active[at(j)])])];
+      fetch(state, c.active[at(std::min(j + 2, active - 1))]);
       const bool was_intact = c.status[at(h.element)] == CohesiveStatus::active;
       evaluate_active(state, h, partial[at(block)]);
       if (was_intact && c.status[at(h.element)] == CohesiveStatus::broken)

@@ -16,8 +16,8 @@ struct TriangleRun {
   const double* area;
   const Sym2* in_situ;
   const double* viscosity;
-  Sym2* strain_rate;
-  Index count;
+  StrainRates* strain_rate;  // of the blocks from the mesh's first on; nullptr: not wanted
+  Index begin, count;
 };
 
 namespace {
@@ -43,8 +43,8 @@ template <bool viscous>
                                                const std::array<double, 4>* __restrict inverse_shape,
                                                const double* __restrict area, const Sym2* __restrict in_situ,
                                                const double* __restrict viscosity,
-                                               Sym2* __restrict strain_rate, const PlaneStiffness& c,
-                                               Index count, Vec2* __restrict forces) {
+                                               StrainRates* __restrict strain_rate, const PlaneStiffness& c,
+                                               Index begin, Index count, Vec2* __restrict forces) {
   double power = 0.0;
 #pragma omp simd reduction(+ : power)
   for (Index t = 0; t < count; ++t) {
@@ -55,9 +55,12 @@ template <bool viscous>
     s = {s.xx + in_situ[t].xx, s.yy + in_situ[t].yy, s.xy + in_situ[t].xy};
     if constexpr (viscous) {
       const auto rate = triangle::strain_rate(h, gradient(b, v[n0], v[n1], v[n2]));
-      power += triangle::viscous_power(area[t], viscosity[t], rate,
-                                       {strain_rate[t].xx, strain_rate[t].yy, strain_rate[t].xy});
-      strain_rate[t] = {rate.xx, rate.yy, rate.xy};
+      if (strain_rate != nullptr) {
+        StrainRates& of_block = strain_rate[(begin + t) / block_size];
+        const Sym2 before = of_block.of((begin + t) % block_size);
+        power += triangle::viscous_power(area[t], viscosity[t], rate, {before.xx, before.yy, before.xy});
+        of_block.set((begin + t) % block_size, {rate.xx, rate.yy, rate.xy});
+      }
       s = {s.xx + viscosity[t] * rate.xx, s.yy + viscosity[t] * rate.yy, s.xy + viscosity[t] * rate.xy};
     }
     const auto f = triangle::forces<double>(h, s, {b[0], b[1], b[2], b[3]}, area[t]);
@@ -71,7 +74,7 @@ template <bool viscous>
 template <bool viscous>
 [[gnu::always_inline]] inline double forces_of(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
   return forces_of<viscous>(r.nodes, r.u, r.v, r.inverse_shape, r.area, r.in_situ, r.viscosity, r.strain_rate,
-                            c, r.count, forces);
+                            c, r.begin, r.count, forces);
 }
 
 CRACKLE_KERNEL double elastic_forces(const TriangleRun& r, const PlaneStiffness& c, Vec2* forces) {
@@ -122,7 +125,8 @@ TriangleRun Bulk::run_of(State& state, Index begin, Index end) const {
           area_.data() + b,
           in_situ_.data() + b,
           viscous_ ? viscosity_.data() + b : nullptr,
-          viscous_ ? state.strain_rate.data() + b : nullptr,
+          viscous_ ? state.strain_rate.data() : nullptr,
+          begin,
           end - begin};
 }
 
@@ -150,9 +154,8 @@ void Bulk::add_weight(Index begin, Index end, Vec2* forces) const {
 
 std::array<Vec2, 3> Bulk::triangle_forces(const State& state, Index t) const {
   std::array<Vec2, 3> forces;
-  Sym2 rate = viscous_ ? state.strain_rate[at(t)] : Sym2{};
   TriangleRun run = run_of(const_cast<State&>(state), t, t + 1);
-  run.strain_rate = &rate;
+  run.strain_rate = nullptr;
   if (viscous_) {
     viscous_forces(run, stiffness(t), forces.data());
   } else {

@@ -232,7 +232,7 @@ void Damage::crack(State& state, const Bulk& bulk, Index t, const CrackStart& st
   if (bulk.viscous()) {
     const Sym2 rate = rate_of(state, gradients, t);
     state.dissipation.viscous +=
-        0.5 * state.time_step * bulk.area(t) * bulk.viscosity(t) * product(state.strain_rate[at(t)], rate);
+        0.5 * state.time_step * bulk.area(t) * bulk.viscosity(t) * product(state.strain_rate_of(t), rate);
   }
   d.sliding_work = start.in_shear ? d.fracture_energy : 0.0;
   d.friction_energy = d.dropped = 0.0;

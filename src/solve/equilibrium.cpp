@@ -78,7 +78,7 @@ std::vector<Vec2> StaticSolver::displacement(const AddLoads& add_loads, std::vec
   const Mesh& mesh = *mesh_;
   State tied = make_tied_state(mesh_);
   if (!start.empty()) tied.displacement = std::move(start);
-  tied.strain_rate.assign(mesh.triangles.size(), {});
+  tied.strain_rate.resize(at(block_count(mesh.triangle_count())));
   std::vector<Vec2> forces(3 * mesh.triangles.size());
   Eigen::VectorXd residual(2 * count_);
   double first = 0.0, before = 0.0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double energy_made_warning = 0.02, energy_made_stop = 0.2;  // over what was dissipated
 constexpr double given_warning = 0.05;                                // by the method, over the same
-constexpr double negative_kinetic = 0.01;                             // over the largest energy
+constexpr double negative_kinetic = 0.1;                              // over the largest energy
 constexpr double borne_by_stray = 0.5;                                // of the strength
 constexpr double fracture_damage = 0.5;                               // of an element in a cohesive zone
 constexpr std::int64_t few_strays = 5;                                // no alarm up to here,

@@ -11,6 +11,7 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/core/parallel.hpp"
 #include "crackle/seismic/listener.hpp"
+#include "crackle/solve/lanczos.hpp"
 
 namespace crackle {
 namespace {
@@ -39,7 +40,7 @@ Simulation::Simulation(Scene scene)
         displacement[at(scene_.mesh->triangles[c / 3][c % 3])];
   }
   set_mass(state_, bulk_);
-  if (bulk_.viscous()) state_.strain_rate.assign(scene_.mesh->triangles.size(), {});
+  if (bulk_.viscous()) state_.strain_rate.resize(at(block_count(scene_.mesh->triangle_count())));
   if (scene_.law) {
     cohesive_.emplace(scene_.law, materials_.all);
     if (split) {
@@ -65,6 +66,9 @@ Simulation::Simulation(Scene scene)
     stable_.limit *= scene_.insertion.step;
     prepare_insertion();
   }
+  // Nothing is inserted, and damage only makes the rock softer: its highest frequency holds for the whole
+  // run.
+  if (scene_.damage.law && !scene_.law) stable_ = sharpened(stable_, state_, bulk_, nullptr);
   if (scene_.damage.law) {
     begin_damage();
     for (const CutTriangle& cut : scene_.damage.cut) {

@@ -6,7 +6,7 @@
 //                     what broke and rubbed, a stop from 20 %
 //   given energy      elements inserted under load that broke before paying that back, and curved elastic
 //                     branches, gave more than 5 % of what broke and rubbed (a warning)
-//   grid oscillation  ½ Σ m v(n−½)·v(n+½) below −1 % of the largest energy: velocities change sign from step
+//   grid oscillation  ½ Σ m v(n−½)·v(n+½) below −10 % of the largest energy: velocities change sign from step
 //                     to step, as at the highest frequency of the mesh and above
 //   stray break       an element breaks that touches no fracture, cohesive zone or free face, in rock that
 //   bears

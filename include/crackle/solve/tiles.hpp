@@ -3,9 +3,9 @@
 // One explicit step of rock and intact cohesive elements, tile by tile. A tile is a block of triangles that
 // follow one another along the Hilbert curve, with its nodes copied into arrays that stay in the first cache:
 // forces are summed there, and nodes that no other tile has a corner of move at once. What several tiles have
-// a part in is summed over the tiles in their order and moves after. A cohesive element belongs to the tile
-// of its face a, which has its other two nodes among its own: it is evaluated there while it is intact; the
-// force of an active one (state.cohesive.force) is only added.
+// a part in is summed over the tiles in their order and moves after the last of them. A cohesive element
+// belongs to the tile of its face a, which has its other two nodes among its own: it is evaluated there while
+// it is intact; the force of an active one (state.cohesive.force) is only added.
 //
 // Memory moved and operations per triangle and step: cases/scaling/README.md.
 #pragma once
@@ -66,7 +66,8 @@ class Tiles {
   void link(const State& state, Index i);
   void work(State& state, const Physics& physics, Index i, double dt, const StressScreen& screen,
             std::span<std::uint8_t> stressed, std::span<char> tile_stressed);
-  void move_shared(State& state, const Tile& tile, double dt) const;
+  /// Of the nodes whose last part is the tile's, those whose first part is in one of [begin, end).
+  static void move_shared(State& state, const Tile& tile, double dt, Index begin, Index end);
 
   std::vector<Tile> tiles_;
   std::vector<std::vector<Index>> near_of_tile_;

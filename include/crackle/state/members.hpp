@@ -201,6 +201,11 @@ void members(SlipMemory& m, V&& v) {
 }
 
 template <class V>
+void members(StrainRates& r, V&& v) {
+  v("number", r.number);
+}
+
+template <class V>
 void members(State& s, V&& v) {
   v("mesh", s.mesh);
   v("time", s.time);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "crackle/core/parallel.hpp"
 #include "crackle/core/vec2.hpp"
 #include "crackle/mesh/mesh.hpp"
 #include "crackle/state/slip_memory.hpp"
@@ -48,19 +49,19 @@ struct CohesivePoint {
 struct CohesiveHistory {
   Index element = -1;
   std::array<CohesivePoint, 3> point;
-  double penalty = 0.0;           ///< of its springs [Pa]; 0: its material's
-  double fracture_energy = 0.0;   ///< dissipated by breaking [J/m]
-  double sliding_work = 0.0;      ///< part of fracture_energy done in shear [J/m]
-  double friction_energy = 0.0;   ///< dissipated by friction [J/m]
-  double made_energy = 0.0;       ///< given back beyond what it held: an error of the steps [J/m]
-  double slid = 0.0;              ///< in the last step, past sticking: mean over its points [m]
-  double rubbed = 0.0;            ///< dissipated by friction in the last step [J/m]
-  double yield_time = -1.0;       ///< first damage [s]; -1: none yet
+  double penalty = 0.0;               ///< of its springs [Pa]; 0: its material's
+  double fracture_energy = 0.0;       ///< dissipated by breaking [J/m]
+  double sliding_work = 0.0;          ///< part of fracture_energy done in shear [J/m]
+  double friction_energy = 0.0;       ///< dissipated by friction [J/m]
+  double made_energy = 0.0;           ///< given back beyond what it held: an error of the steps [J/m]
+  double slid = 0.0;                  ///< in the last step, past sticking: mean over its points [m]
+  double rubbed = 0.0;                ///< dissipated by friction in the last step [J/m]
+  double yield_time = -1.0;           ///< first damage [s]; -1: none yet
   std::array<double, 4> face_mass{};  ///< see face_masses(), once it yields [kg/m]
-  double kinetic_at_yield = 0.0;  ///< of its faces, see face_kinetic_energy() [J/m]
-  double kinetic_rise = 0.0;      ///< largest rise above kinetic_at_yield [J/m]
-  double break_time = -1.0;       ///< [s]; -1: not broken
-  std::int8_t mode = 0;           ///< FailureMode once broken
+  double kinetic_at_yield = 0.0;      ///< of its faces, see face_kinetic_energy() [J/m]
+  double kinetic_rise = 0.0;          ///< largest rise above kinetic_at_yield [J/m]
+  double break_time = -1.0;           ///< [s]; -1: not broken
+  std::int8_t mode = 0;               ///< FailureMode once broken
 };
 
 /// Forces per metre of thickness [N/m] that an element puts on face a at its two ends; face b
@@ -174,6 +175,23 @@ struct ContactState {
   double moved = 0.0;  ///< bound of the motion of two sides against one another since [m]
 };
 
+/// Strain rates of a block of triangles [1/s], in rows of eight as the step takes them: component k of
+/// triangle i is in row 3 (i mod 32) + k, at i / 32.
+struct alignas(64) StrainRates {
+  static constexpr Index groups = block_size / 8;
+  std::array<double, 3 * static_cast<std::size_t>(block_size)> number{};
+
+  static constexpr std::size_t place(Index i) {
+    return static_cast<std::size_t>(24 * (i % groups) + i / groups);
+  }
+  Sym2 of(Index i) const { return {number[place(i)], number[place(i) + 8], number[place(i) + 16]}; }
+  void set(Index i, Sym2 rate) {
+    number[place(i)] = rate.xx;
+    number[place(i) + 8] = rate.yy;
+    number[place(i) + 16] = rate.xy;
+  }
+};
+
 /// Every number that changes during a run, as plain arrays: what a checkpoint saves.
 ///
 /// A triangle has three corners (corner 3 t + i). A node is a group of corners that move together:
@@ -197,8 +215,9 @@ struct State {
   std::vector<double> inverse_mass;  ///< [m/kg]; 0: fixed
 
   // triangles
-  std::vector<double> density;    ///< [kg/m3]; empty: the same in all
-  std::vector<Sym2> strain_rate;  ///< of the last evaluation [1/s]; empty without viscosity
+  std::vector<double> density;  ///< [kg/m3]; empty: the same in all
+  std::vector<StrainRates>
+      strain_rate;  ///< by blocks of triangles, of the last evaluation; empty without viscosity
 
   CohesiveElements cohesive;
   std::vector<Index>
@@ -209,6 +228,10 @@ struct State {
   Dissipation dissipation;
   SlipMemory slips;
 
+  /// [1/s]
+  Sym2 strain_rate_of(Index triangle) const {
+    return strain_rate[static_cast<std::size_t>(triangle / block_size)].of(triangle % block_size);
+  }
   Index node_count() const { return static_cast<Index>(displacement.size()); }
   Vec2 reference(Index corner) const {
     return mesh->vertices[static_cast<std::size_t>(

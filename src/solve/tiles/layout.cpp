@@ -83,7 +83,7 @@ Tiles::Reads::Reads(const State& state, const Tile& tile) {
   add(range_of(tile.numbers.data(), tile.numbers.size()));
   if (!tile.viscosity.empty()) {
     add(range_of(tile.viscosity.data(), tile.viscosity.size()));
-    add(range_of(state.strain_rate.data() + tile.begin, at(tile.end - tile.begin)));
+    add(range_of(state.strain_rate.data() + tile.begin / block_size, 1));
   }
 }
 
@@ -290,6 +290,7 @@ void Tiles::for_shared(const Tile& tile, const Visit& visit) {
 void Tiles::link(const State& state, Index i) {
   Tile& tile = tiles_[at(i)];
   tile.owned.clear();
+  tile.from.clear();
   tile.parts.clear();
   tile.part.clear();
   std::vector<Index> in;
@@ -297,8 +298,9 @@ void Tiles::link(const State& state, Index i) {
     in.clear();
     for_tiles_at(state, node, [&](Index other) { in.push_back(other); });
     sort_out(in);
-    if (in.front() != i) return;
+    if (in.back() != i) return;
     tile.owned.push_back(node);
+    tile.from.push_back(in.front());
     tile.parts.push_back(static_cast<std::uint16_t>(in.size()));
     for (const Index other : in) {
       const Tile& from = tiles_[at(other)];

@@ -77,8 +77,9 @@ struct Tiles::Tile {
   std::vector<tiles::Row> limits;   // [group][4]; empty: those of the materials
   std::vector<Added> added;
   std::vector<Vec2> partial;  // forces on shared nodes
-  // Shared nodes of which this is the first tile: their parts in all tiles.
+  // Shared nodes of which this is the last tile: their parts in all tiles.
   std::vector<Index> owned;
+  std::vector<Index> from;           // the first tile that has a part in each
   std::vector<std::uint16_t> parts;  // of each
   std::vector<const Vec2*> part;
 
@@ -92,6 +93,8 @@ struct Tiles::Tile {
     if (places.empty()) return tiles::for_each_place(end - begin, groups(), work);
     for (Index t = 0; t < end - begin; ++t) work(t, places[static_cast<std::size_t>(t)]);
   }
+  /// Whole and of one rock: the state's strain rates lie in its order.
+  bool regular() const { return places.empty() && end - begin == block_size; }
   int element_groups() const { return static_cast<int>(elements.size()) / tiles::lanes; }
   // Twice the number of a node in the tile.
   std::uint16_t name(Index node) const { return static_cast<std::uint16_t>(2 * local(node)); }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "crackle/solve/tiles.hpp"
 
+#include <omp.h>
+
+#include <cstring>
+
 #include "tile.hpp"
 
 namespace crackle {
@@ -13,6 +17,17 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 const double* numbers(const std::vector<Vec2>& v) { return &v.front().x; }
 double* numbers(std::vector<Vec2>& v) { return &v.front().x; }
+
+// Whether any of the marks of some groups is set.
+bool any_of_groups(const std::uint8_t* marks, int groups) {
+  std::uint64_t any = 0;
+  for (int g = 0; g < groups; ++g) {
+    std::uint64_t of_group = 0;
+    std::memcpy(&of_group, marks + lanes * g, lanes);
+    any |= of_group;
+  }
+  return any != 0;
+}
 
 }  // namespace
 
@@ -33,9 +48,21 @@ Tiles::~Tiles() = default;
 const std::vector<double>& Tiles::move(State& state, const Physics& physics, double dt,
                                        const StressScreen& screen, std::span<std::uint8_t> stressed,
                                        std::span<char> tile_stressed) {
-  tiles::for_each_tile(tiles_.size(),
-                       [&](Index i) { work(state, physics, i, dt, screen, stressed, tile_stressed); });
-  tiles::for_each_tile(tiles_.size(), [&](Index i) { move_shared(state, tiles_[at(i)], dt); });
+  // A node moves as soon as the last tile with a part in it is done, while its parts are in the cache yet;
+  // where another thread has one, when all are.
+  const auto count = static_cast<Index>(tiles_.size());
+#pragma omp parallel if (count > 1)
+  {
+    const Index threads = omp_get_num_threads(), thread = omp_get_thread_num();
+    const auto first_of = [&](Index t) { return static_cast<Index>(std::int64_t{count} * t / threads); };
+    const Index begin = first_of(thread), end = first_of(thread + 1);
+    for (Index i = begin; i < end; ++i) {
+      work(state, physics, i, dt, screen, stressed, tile_stressed);
+      move_shared(state, tiles_[at(i)], dt, begin, count);
+    }
+#pragma omp barrier
+    for (Index i = begin; i < end && begin > 0; ++i) move_shared(state, tiles_[at(i)], dt, 0, begin);
+  }
   near_.clear();
   for (const auto& found : near_of_tile_) near_.insert(near_.end(), found.begin(), found.end());
   std::sort(near_.begin(), near_.end());
@@ -82,18 +109,21 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   rock.ahead = {ranges, ranges + half, lines};
   if (bulk.viscous()) {
     load(state.velocity, s.velocity);
-    std::fill_n(s.strain_rate.begin(), 3 * lanes * groups, 0.0);
-    tile.for_each_triangle([&](Index t, Place p) {
-      double* rate = s.strain_rate.data() + 3 * lanes * p.group + p.lane;
-      const Sym2 last = state.strain_rate[at(tile.begin + t)];
-      rate[0] = last.xx;
-      rate[lanes] = last.yy;
-      rate[2 * lanes] = last.xy;
-    });
+    StrainRates& rates = state.strain_rate[at(i)];
+    rock.strain_rate = tile.regular() ? rates.number.data() : s.strain_rate.data();
+    if (!tile.regular()) {
+      std::fill_n(s.strain_rate.begin(), 3 * lanes * groups, 0.0);
+      tile.for_each_triangle([&](Index t, Place p) {
+        double* rate = s.strain_rate.data() + 3 * lanes * p.group + p.lane;
+        const Sym2 last = rates.of(t);
+        rate[0] = last.xx;
+        rate[lanes] = last.yy;
+        rate[2 * lanes] = last.xy;
+      });
+    }
     s.power.fill(0.0);
     rock.velocity = s.velocity.data();
     rock.viscosity = tile.viscosity.front().lane.data();
-    rock.strain_rate = s.strain_rate.data();
     rock.power = s.power.data();
   }
   for (const Tile::Batch& batch : tile.rocks) {
@@ -116,12 +146,15 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
     double power = 0.0;
     for (const double p : s.power) power += p;
     power_[at(i)] = power;
-    tile.for_each_triangle([&](Index t, Place p) {
-      const double* rate = s.strain_rate.data() + 3 * lanes * p.group + p.lane;
-      state.strain_rate[at(tile.begin + t)] = {rate[0], rate[lanes], rate[2 * lanes]};
-    });
+    if (!tile.regular()) {
+      tile.for_each_triangle([&](Index t, Place p) {
+        const double* rate = s.strain_rate.data() + 3 * lanes * p.group + p.lane;
+        state.strain_rate[at(i)].set(t, {rate[0], rate[lanes], rate[2 * lanes]});
+      });
+    }
   }
-  if (!stressed.empty()) {
+  // As a rule nothing is stressed, nor was.
+  if (!stressed.empty() && (tile_stressed[at(i)] != 0 || any_of_groups(s.stressed.data(), groups))) {
     char any = 0;
     tile.for_each_triangle([&](Index t, Place p) {
       const std::uint8_t mark = s.stressed[at(lanes * p.group + p.lane)] & 1;
@@ -147,8 +180,11 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
          s.near.data() + lanes * batch.first,
          batch.first == 0 ? rest : tiles::Ahead{}});
   }
-  for (std::size_t j = 0; j < tile.elements.size(); ++j) {
-    if (s.near[j] != 0 && tile.elements[j] >= 0) near.push_back(tile.elements[j]);
+  for (int g = 0; g < element_groups; ++g) {
+    if (!any_of_groups(s.near.data() + lanes * g, 1)) continue;
+    for (int j = lanes * g; j < lanes * (g + 1); ++j) {
+      if (s.near[at(j)] != 0 && tile.elements[at(j)] >= 0) near.push_back(tile.elements[at(j)]);
+    }
   }
   const auto add = [&](std::uint16_t n, Vec2 f) {
     s.force[n] += f.x;
@@ -175,9 +211,13 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
                 state.inverse_mass.data(), numbers(state.velocity), numbers(state.displacement)});
 }
 
-void Tiles::move_shared(State& state, const Tile& tile, double dt) const {
+void Tiles::move_shared(State& state, const Tile& tile, double dt, Index begin, Index end) {
   const Vec2* const* part = tile.part.data();
   for (std::size_t k = 0; k < tile.owned.size(); ++k) {
+    if (tile.from[k] < begin || tile.from[k] >= end) {
+      part += tile.parts[k];
+      continue;
+    }
     Vec2 force;
     for (std::uint16_t j = 0; j < tile.parts[k]; ++j) force += **part++;
     const std::size_t n = at(tile.owned[k]);

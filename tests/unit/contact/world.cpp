@@ -50,7 +50,7 @@ World::World(const std::vector<Mesh>& bodies, const WorldMaterial& m)
       contact_(state, m.contact),
       corner_force_(3 * state.mesh->triangles.size()) {
   set_mass(state, m.density);
-  if (bulk_.viscous()) state.strain_rate.assign(state.mesh->triangles.size(), {});
+  if (bulk_.viscous()) state.strain_rate.resize(at(block_count(state.mesh->triangle_count())));
   for (const double inverse : state.inverse_mass) mass_.push_back(1.0 / inverse);
   Index node = 0;
   for (const Mesh& body : bodies) {
