@@ -71,7 +71,7 @@ CohesiveMaterial at_point(CohesiveMaterial m, const CohesivePoint& p) {
 // steps).
 struct StepWork {
   double normal, shear;
-  double lost;  // friction's too, less what the point holds more
+  double lost;  // friction's too, and what the law gave, less what the point holds more
 };
 
 StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
@@ -79,7 +79,8 @@ StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
   const double normal = 0.5 * (now.normal + before.normal) * (now.opening - before.opening);
   const double shear = 0.5 * (now.shear + before.shear) * slip;
   const double friction = 0.5 * (now.friction + before.friction) * slip;
-  return {normal, shear, normal + shear + friction - (now.stored - before.stored)};
+  const double given = now.path - before.path;
+  return {normal, shear, normal + shear + friction + given - (now.stored - before.stored)};
 }
 
 // Into the cache: what is met in the order of activation lies anywhere.
@@ -192,10 +193,8 @@ void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& su
   h.slid = 0.0;
   for (std::size_t q = 0; q < 3; ++q) {
     CohesivePoint& p = h.point[q];
-    if (p.damage == 0.0) {
-      if (law_->curvature() > 0.0) path -= weight[q] * work_of_step(old[q], p).lost;
-      continue;
-    }
+    path += weight[q] * (p.path - old[q].path);
+    if (p.damage == 0.0) continue;
     h.slid += weight[q] / length * (p.plastic_slip - old[q].plastic_slip);
     const StepWork work = work_of_step(old[q], p);
     const double paid = std::clamp(work.lost, 0.0, std::max(p.inserted - p.repaid, 0.0));

@@ -82,12 +82,17 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
                        CohesivePoint& p) const {
   const double k = stiffness_of(m, length);
   const double c = curvature();
+  const CohesivePoint old = p;
   p.opening = opening;
   p.slip = slip;
   if (p.damage == 0.0) {
     const ElasticTraction t =
         elastic_traction(k, c, m.tensile_strength, m.cohesion, m.tan_friction, opening, slip);
     if (!t.beyond) {
+      // Of E_s = t²/2k − c |t|³/(12 k f_s), t = k s, by f_s.
+      const double t0 = k * std::abs(old.slip), t1 = k * std::abs(slip);
+      p.path += c * (t0 * t0 * t0 + t1 * t1 * t1) / (24.0 * k) *
+                (1.0 / shear_strength(m, k * old.opening) - 1.0 / shear_strength(m, k * opening));
       p.normal = t.normal;
       p.shear = t.shear;
       p.friction = 0.0;
@@ -130,7 +135,16 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
   const double k_t = m.tangential_penalty / length;
   if (first) {
     // The elastic branch bore the friction too: start the friction spring where it bears that share.
-    p.plastic_slip = slip - std::copysign(residual * branch(c, r), slip) / k_t;
+    const double share = residual * branch(c, r);
+    p.plastic_slip = slip - std::copysign(share, slip) / k_t;
+    p.path += 0.5 * share * share / k_t - residual * peak_slip * branch_energy(c, r);
+  } else if (z > 0.0) {
+    const double pressed = std::min(k * old.opening, 0.0);  // before
+    const double held = std::max(shear_strength(m, pressed) - residual_strength(m, pressed), 0.0);
+    const auto share = [&](const CohesivePoint& q) {  // E_s over what is held
+      return softening(q.damage) * q.slip_max * branch_energy(c, std::min(1.0, std::abs(q.slip) / q.slip_max));
+    };
+    p.path += 0.5 * (share(old) + share(p)) * (std::max(strength - residual, 0.0) - held);
   }
   p.friction = coulomb_traction(k_t, slip, residual, p.plastic_slip);
   p.stored = stored + 0.5 * p.friction * p.friction / k_t;

@@ -43,6 +43,7 @@ void members(CohesivePoint& p, V&& v) {
   v("stored", p.stored);
   v("inserted", p.inserted);
   v("repaid", p.repaid);
+  v("path", p.path);
 }
 
 template <class V>

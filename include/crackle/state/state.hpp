@@ -38,6 +38,7 @@ struct CohesivePoint {
   double stored = 0.0;    ///< recoverable energy [J/m2]
   double inserted = 0.0;  ///< given to the spring when it was inserted under load [J/m2]
   double repaid = 0.0;    ///< of it, paid back by breaking [J/m2]
+  double path = 0.0;      ///< given by the law (taken: negative) where it has no potential [J/m2]
 
   /// Recoverable energy that came from the rock [J/m2]. What insertion gave, and the rock may have had from
   /// the spring since, the breaking pays back before it dissipates: neither makes energy.
@@ -150,9 +151,7 @@ struct Dissipation {
   /// Given to the rock by springs that were inserted under load and broke before they had paid it back: all
   /// of an element breaks when two of its points have, and the third's debt goes with it.
   double inserted = 0.0;
-  /// Given to the rock by points on a curved elastic branch, whose shear strength follows the normal stress:
-  /// it has no potential, and leaves or takes work on a closed path. Negative: taken.
-  double path = 0.0;
+  double path = 0.0;  ///< given to the rock by laws without a potential, see law.hpp; negative: taken
 };
 
 /// A point of a free side (3 t + i: side i of triangle t) that touches another free side, or that
