@@ -64,7 +64,8 @@ void print_onset(const Scene& scene, double end_time) {
 void print_cost(const Case& scene, const Mesh& mesh, const Steps& steps, const WallTime& time, double meshing,
                 int threads) {
   fmt::print("\nCost\n");
-  fmt::print("  {}; {} of memory are available\n", needs_text(scene, mesh.triangle_count(), steps),
+  fmt::print("  {}; {} of memory are available\n",
+             needs_text(scene, mesh.triangle_count(), output_of_run(scene, mesh.triangle_count(), steps)),
              bytes_text(available_memory()));
   fmt::print("  wall time about {} on {} thread{}: mesh {}, geostatic stage {}, steps {}, output {}\n",
              duration_text(meshing + time.total()), threads, threads == 1 ? "" : "s", duration_text(meshing),
@@ -90,6 +91,9 @@ void check_quasi_static(const Case& scene) {
   if (const std::string joints = network_text(network); !joints.empty()) fmt::print("{}\n", joints);
   fmt::print("\nNumbers and warnings\n");
   for (const std::string& line : quasi_static_notes(scene, stage)) fmt::print("  {}\n", line);
+  fmt::print("\nCost\n  {}; {} of memory are available\n",
+             needs_text(scene, mesh->triangle_count(), output_of_field_time(scene, mesh->triangle_count())),
+             bytes_text(available_memory()));
 }
 
 }  // namespace
@@ -97,7 +101,7 @@ void check_quasi_static(const Case& scene) {
 int check_command(const CheckOptions& options) {
   const RegimeChoice regime = choose_regime(load_case(options.case_file, options.overrides, options.seed));
   const Case& scene = regime.scene;
-  if (!regime.quasi_static) require_memory(scene);
+  require_memory(scene);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   omp_set_num_threads(threads);
 

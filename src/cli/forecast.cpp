@@ -13,6 +13,7 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/lanczos.hpp"
 #include "frames.hpp"
+#include "regime.hpp"
 
 namespace crackle {
 namespace {
@@ -22,7 +23,11 @@ struct FrameBytes {
   double base, displacement, velocity, stress;
 };
 constexpr FrameBytes frame_split{39.4, 20.6, 23.0, 10.2}, frame_on_demand{20.0, 8.2, 8.2, 10.0};
-constexpr double history_row = 270.0;
+constexpr FrameBytes frame_field_time{19.0, 8.5, 0.0, 9.5};
+constexpr double history_row = 270.0, history_row_field_time = 450.0;
+constexpr double frame_heads = 7e3, other_files = 6e3;  // of fields and fractures; log, case, summary
+// A run in field time takes some hundred steps a stage of its pump.
+constexpr double rows_field_time = 600.0;
 constexpr double checkpoint_triangle = 510.0;
 constexpr double frame_seconds = 4.6e-6;  // a triangle, most of it zlib
 
@@ -48,53 +53,59 @@ double undisturbed_seconds(int calls, const Work& work) {
   return seconds[seconds.size() / 4];
 }
 
+RunOutput output_of(const Case& scene, double triangles, const FrameBytes& bytes, double most_frames,
+                    double history) {
+  const auto wanted = [&](const char* name) {
+    const auto& fields = scene.output.fields;
+    return fields.empty() || std::find(fields.begin(), fields.end(), name) != fields.end();
+  };
+  double frame = bytes.base;
+  if (wanted("displacement_m")) frame += bytes.displacement;
+  if (wanted("velocity_m_s")) frame += bytes.velocity;
+  if (wanted("stress_Pa")) frame += bytes.stress;
+  const double frames =
+      1.0 + std::min(most_frames, std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9));
+  return {(frame * triangles + frame_heads) * frames + history + other_files,
+          static_cast<std::int64_t>(frames)};
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
 
-std::int64_t frames_of_run(const Case& scene, const Steps& steps) {
-  const double frames = std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9);
-  return 1 + static_cast<std::int64_t>(std::min(frames, static_cast<double>(steps.count)));
-}
-
-double output_of_run(const Case& scene, double triangles, const Steps& steps) {
-  const auto wanted = [&](const char* name) {
-    const auto& fields = scene.output.fields;
-    return fields.empty() || std::find(fields.begin(), fields.end(), name) != fields.end();
-  };
+RunOutput output_of_run(const Case& scene, double triangles, const Steps& steps) {
+  const double count = static_cast<double>(steps.count);
   const FrameBytes& bytes = scene.cohesive.insertion == "all" ? frame_split : frame_on_demand;
-  double frame = bytes.base;
-  if (wanted("displacement_m")) frame += bytes.displacement;
-  if (wanted("velocity_m_s")) frame += bytes.velocity;
-  if (wanted("stress_Pa")) frame += bytes.stress;
-  const double rows =
-      std::min(scene.run.end_time / scene.output.history_every, static_cast<double>(steps.count));
-  return frame * triangles * static_cast<double>(frames_of_run(scene, steps)) + history_row * rows;
+  return output_of(scene, triangles, bytes, count,
+                   history_row * std::min(scene.run.end_time / scene.output.history_every, count));
 }
 
-void require_disk(const Case& scene, double triangles, const Steps& steps, const std::string& folder) {
-  const double output = output_of_run(scene, triangles, steps);
-  if (scene.output.max_bytes > 0.0 && output > scene.output.max_bytes) {
+RunOutput output_of_field_time(const Case& scene, double triangles) {
+  return output_of(scene, triangles, frame_field_time, rows_field_time,
+                   rows_field_time * history_row_field_time);
+}
+
+void require_disk(const Case& scene, double triangles, const RunOutput& output, const std::string& folder) {
+  if (scene.output.max_bytes > 0.0 && output.bytes > scene.output.max_bytes) {
     throw CaseError(
         scene.file, 0, 0,
         fmt::format("the run would write {} in {} frames, more than output.max_bytes allows, {}: write "
                     "fewer frames ([output] fields_every) or fields",
-                    bytes_text(output), frames_of_run(scene, steps), bytes_text(scene.output.max_bytes)));
+                    bytes_text(output.bytes), output.frames, bytes_text(scene.output.max_bytes)));
   }
   std::error_code unknown;
   const auto space = std::filesystem::space(folder, unknown);
   if (unknown) return;
   // Two checkpoints and a third that is being written.
-  const double needed = output + 3.0 * checkpoint_triangle * triangles;
+  const double needed = output.bytes + (in_field_time(scene) ? 0.0 : 3.0 * checkpoint_triangle * triangles);
   const double available = static_cast<double>(space.available);
   if (needed <= available) return;
-  throw CaseError(
-      scene.file, 0, 0,
-      fmt::format("the run would write {} in {} frames and {} are free in {}: write fewer frames "
-                  "([output] fields_every) or fields, or give another folder with -o DIR",
-                  bytes_text(needed), frames_of_run(scene, steps), bytes_text(available), folder));
+  throw CaseError(scene.file, 0, 0,
+                  fmt::format("the run would write {} in {} frames and {} are free in {}: write fewer frames "
+                              "([output] fields_every) or fields, or give another folder with -o DIR",
+                              bytes_text(needed), output.frames, bytes_text(available), folder));
 }
 
 Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh, bool allow_unstable) {
@@ -140,19 +151,20 @@ StableStep stable_step_of(const Scene& scene) {
   return stable;
 }
 
-std::string needs_text(const Case& scene, double triangles, const Steps& steps) {
+std::string needs_text(const Case& scene, double triangles, const RunOutput& output) {
   const RunMemoryUse use = memory_of_run(scene, triangles);
   return fmt::format("{} of memory{}; {} of output in {} frames", bytes_text(use.run),
                      scene.output.checkpoint_every > 0.0 && use.checkpoint > use.run
                          ? fmt::format(", {} while a checkpoint is written", bytes_text(use.checkpoint))
                          : "",
-                     bytes_text(output_of_run(scene, triangles, steps)), frames_of_run(scene, steps));
+                     bytes_text(output.bytes), output.frames);
 }
 
 WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const Steps& steps, int threads) {
   const Index triangles = solver_scene.mesh->triangle_count();
   WallTime time;
-  time.output = frame_seconds * triangles * static_cast<double>(frames_of_run(scene, steps));
+  time.output =
+      frame_seconds * triangles * static_cast<double>(output_of_run(scene, triangles, steps).frames);
   if (triangles <= largest_timed_mesh) {
     // Without stress nothing slips in the geostatic stage, whatever the scene is.
     Scene probe = solver_scene;
@@ -179,9 +191,9 @@ WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const St
 }
 
 std::string bytes_text(double bytes) {
-  if (bytes < 1e6) return fmt::format("{:.0f} kB", 1e-3 * bytes);
-  if (bytes < 1e9) return fmt::format("{:.0f} MB", 1e-6 * bytes);
-  return fmt::format("{:.1f} GB", 1e-9 * bytes);
+  const int power = bytes < 1e6 ? 1 : bytes < 1e9 ? 2 : 3;
+  const double value = bytes / std::pow(1e3, power);
+  return fmt::format("{:.{}f} {}B", value, value < 10.0 ? 1 : 0, " kMG"[power]);
 }
 
 std::string duration_text(double seconds) {

@@ -22,15 +22,25 @@ struct Steps {
 Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh,
                    bool allow_unstable = false);
 
-/// Largest memory of a run on a mesh of that many triangles [bytes].
+/// Largest memory of a run on a mesh of that many triangles [bytes], in field time too.
 struct RunMemoryUse {
   double run = 0.0;
   double checkpoint = 0.0;  ///< with checkpoints
 };
 RunMemoryUse memory_of_run(const Case& scene, double triangles);
 
+/// What a run writes.
+struct RunOutput {
+  double bytes = 0.0;       ///< all frames and other files, but for what breaks
+  std::int64_t frames = 0;  ///< of fields
+};
+/// Not more than one frame a step.
+RunOutput output_of_run(const Case& scene, double triangles, const Steps& steps);
+/// In field time, whose steps nobody knows beforehand.
+RunOutput output_of_field_time(const Case& scene, double triangles);
+
 /// "24 MB of memory, 46 MB while a checkpoint is written; 19 MB of output in 21 frames"
-std::string needs_text(const Case& scene, double triangles, const Steps& steps);
+std::string needs_text(const Case& scene, double triangles, const RunOutput& output);
 
 /// Memory that this process may still take [bytes], by /proc/meminfo, control group and ulimit;
 /// infinity where none of them says.
@@ -42,15 +52,9 @@ void require_memory(const Case& scene);
 /// The same once the number of triangles is known.
 void require_memory(const Case& scene, Index triangles);
 
-/// Size of all frames of a run and its other files [bytes].
-double output_of_run(const Case& scene, double triangles, const Steps& steps);
-
-/// @throws CaseError when that is more than output.max_bytes, or with its checkpoints would not fit on the
-/// disk that a folder is on
-void require_disk(const Case& scene, double triangles, const Steps& steps, const std::string& folder);
-
-/// Number of field frames a run writes, not more than one a step.
-std::int64_t frames_of_run(const Case& scene, const Steps& steps);
+/// @throws CaseError when its output is more than output.max_bytes, or with its checkpoints would not fit on
+/// the disk that a folder is on
+void require_disk(const Case& scene, double triangles, const RunOutput& output, const std::string& folder);
 
 /// Stable step of a scene at rest, without its static solve.
 StableStep stable_step_of(const Scene& scene);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <new>
 
 #include "commands.hpp"
 #include "crackle/core/errors.hpp"
@@ -232,6 +233,9 @@ int main(int argc, char** argv) {
   } catch (const crackle::Error& error) {
     fmt::print(stderr, "crackle: {}\n", error.what());
     return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "crackle: out of memory: take a coarser mesh, or a machine with more\n");
+    return static_cast<int>(crackle::ExitCode::bad_case);
   } catch (const std::exception& error) {
     fmt::print(stderr, "crackle: {}\n", error.what());
     return 1;

@@ -84,6 +84,21 @@ void set_wings(const Case& scene, std::vector<Index> notch, QuasiStaticScene& s)
   }
 }
 
+// Lines of the grid on the half x > 0: even along the path and beside it, then coarser.
+struct GridLine {
+  double fine_end, to;
+  Grading grading;
+};
+struct GridLines {
+  GridLine x, y;  // of y the upper half
+};
+GridLines grid_lines(const Case& scene) {
+  const Case::Mesh& m = scene.mesh;
+  const double path = m.size_fine * std::round(m.fine_radius / m.size_fine);
+  return {{path, 0.5 * scene.domain.width, {m.size_fine, 1.2, m.size_coarse}},
+          {6.0 * m.size_fine, 0.5 * scene.domain.height, {m.size_fine, 1.15, m.size_coarse}}};
+}
+
 // On the whole domain, held at its rim: wings that choose their way, and joints.
 void set_free_path(const Case& scene, QuasiStaticScene& s) {
   const Scene rock = make_scene(scene, s.mesh);
@@ -105,15 +120,25 @@ void set_free_path(const Case& scene, QuasiStaticScene& s) {
 
 double modelled_halves(const Case& scene) { return is_straight(scene) ? 1.0 : 2.0; }
 
+double estimate_grid_triangles(const Case& scene) {
+  const GridLines lines = grid_lines(scene);
+  const auto steps = [](const GridLine& line) {
+    const auto& [step, ratio, largest] = line.grading;
+    const double growing = std::log(std::max(1.0, largest / step)) / std::log(ratio);
+    const double grown = std::max(0.0, largest - step) * ratio / (ratio - 1.0);
+    const double rest = line.to - line.fine_end;
+    return line.fine_end / step + (rest > grown
+                                       ? growing + (rest - grown) / largest
+                                       : std::log1p(rest * (ratio - 1.0) / (step * ratio)) / std::log(ratio));
+  };
+  return 4.0 * steps(lines.x) * steps(lines.y);
+}
+
 Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network) {
   if (!is_straight(scene)) return excavate(make_mesh(scene, network));
-  const Case::Mesh& m = scene.mesh;
-  const double path = m.size_fine * std::round(m.fine_radius / m.size_fine);
-  const std::vector<double> x =
-      graded_line(0.0, path, 0.5 * scene.domain.width, {m.size_fine, 1.2, m.size_coarse});
-  const std::vector<double> y =
-      graded_line(0.0, 6.0 * m.size_fine, 0.5 * scene.domain.height, {m.size_fine, 1.15, m.size_coarse});
-  return grid_rectangle(x, mirrored(y));
+  const GridLines lines = grid_lines(scene);
+  const auto line = [](const GridLine& l) { return graded_line(0.0, l.fine_end, l.to, l.grading); };
+  return grid_rectangle(line(lines.x), mirrored(line(lines.y)));
 }
 
 // Viscosity [Pa s] of K_m = 48, ten times that from which pressure is uniform.

@@ -18,6 +18,9 @@ double modelled_halves(const Case& scene);
 /// @param network where given, what became of the joints
 Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network = nullptr);
 
+/// Triangles that the grid of a straight path will have, nearly.
+double estimate_grid_triangles(const Case& scene);
+
 /// The scene of the stage, on such a mesh.
 QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<const Mesh> mesh);
 

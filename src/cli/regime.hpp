@@ -26,6 +26,9 @@ struct RegimeChoice {
 /// @throws CaseError when the quasi-static regime is asked for and cannot be
 RegimeChoice choose_regime(const Case& scene);
 
+/// Of a case that choose_regime() has gone through.
+inline bool in_field_time(const Case& scene) { return scene.run.regime == "quasi_static"; }
+
 /// A path along x on half of the domain; else one that is free, on all of it.
 bool is_straight(const Case& scene);
 

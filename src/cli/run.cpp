@@ -171,10 +171,11 @@ class Run {
     for (const std::string& line : scene_warnings(solver_scene, scene_.run.end_time, simulation_->stable()))
       say(line);
     const Steps steps = steps_of_run(scene_, simulation_->stable(), *mesh, options_.allow_unstable);
-    require_disk(scene_, mesh->triangle_count(), steps, folder_.path());
+    const RunOutput output = output_of_run(scene_, mesh->triangle_count(), steps);
+    require_disk(scene_, mesh->triangle_count(), output, folder_.path());
     memory_.step_length = steps.length;
     say(fmt::format("{} steps of {:.3g} s on {} threads; {}", steps.count, steps.length, threads_,
-                    needs_text(scene_, mesh->triangle_count(), steps)));
+                    needs_text(scene_, mesh->triangle_count(), output)));
     folder_.write_resolved(scene_);
   }
 
@@ -407,7 +408,7 @@ int resume_command(const RunOptions& options) {
 int run_command(const RunOptions& options) {
   if (!options.resume.empty()) return resume_command(options);
   const Case scene = load_case(options.case_file, options.overrides, options.seed);
-  if (!choose_regime(scene).quasi_static) require_memory(scene);
+  require_memory(choose_regime(scene).scene);
   const std::string path =
       options.output.empty()
           ? (std::filesystem::path("runs") / std::filesystem::path(options.case_file).stem()).string()

@@ -14,6 +14,7 @@
 #include "checkpoint.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
+#include "forecast.hpp"
 #include "joints.hpp"
 #include "progress.hpp"
 #include "quasi_static_scene.hpp"
@@ -204,6 +205,12 @@ class FieldTimeRun {
     say("mesh: " + quasi_static_mesh_text(scene_, stage));
     if (network.joints > 0) say(network_text(network));
     for (const std::string& line : quasi_static_notes(scene_, stage)) say(line);
+    const RunOutput output = output_of_field_time(scene_, triangles_);
+    if (options_.resume.empty()) {
+      require_memory(scene_, triangles_);
+      require_disk(scene_, triangles_, output, folder_.path());
+    }
+    say(needs_text(scene_, triangles_, output));
     quasi_static::State state;
     const bool resumed = !options_.resume.empty() &&
                          take_up_field_time(

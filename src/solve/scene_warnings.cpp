@@ -48,6 +48,32 @@ void cohesive_zones(const PlaneStiffness& stiffness, const CohesiveMaterial& m, 
   look("sliding (mode II)", m.fracture_energy_mode2, m.cohesion, "do not rely on how much breaks in shear");
 }
 
+// Of all rocks, each warning once; where not all have it, with those that do.
+void cohesive_zones(const Scene& scene, const MeshMeasure& mesh, Lines& lines) {
+  Lines all;
+  std::vector<std::vector<std::size_t>> rocks;  // of each line
+  for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
+    const RockMass& rock = scene.rock(layer);
+    Lines here;
+    for (const CohesiveMaterial& m : extreme_planes(rock.cohesive))
+      cohesive_zones(rock.stiffness, m, mesh, here);
+    for (const std::string& line : here) {
+      const auto known = std::ranges::find(all, line) - all.begin();
+      if (known == std::ssize(all)) all.push_back(line), rocks.emplace_back();
+      auto& of = rocks[static_cast<std::size_t>(known)];
+      if (of.empty() || of.back() != layer) of.push_back(layer);
+    }
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::string where;
+    for (const std::size_t layer : rocks[i]) {
+      where += where.empty() ? " (in " : ", ";
+      where += layer == 0 ? "the rock beside the layers" : fmt::format("layers.{}", layer - 1);
+    }
+    lines.push_back(all[i] + (rocks[i].size() <= scene.layers.size() ? where + ")" : ""));
+  }
+}
+
 double longest_edge(const Scene& scene) {
   double longest = std::numeric_limits<double>::infinity();
   for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
@@ -275,11 +301,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, double end_time, con
   }
   if (scene.damage.law) damage_sizes(scene, mesh, lines);
   if (scene.breaks()) {
-    for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
-      const RockMass& rock = scene.rock(layer);
-      for (const CohesiveMaterial& m : extreme_planes(rock.cohesive))
-        cohesive_zones(rock.stiffness, m, mesh, lines);
-    }
+    cohesive_zones(scene, mesh, lines);
     pressure_loss(scene, end_time, lines);
     wall_before_pumping(scene, mesh, lines);
   }

@@ -22,7 +22,7 @@ TEST_F(Resources, ARunThatWouldWriteMoreThanIsAllowedIsRefused) {
   write("case.toml", good_case);
   const Outcome outcome =
       crackle({"run", path("case.toml"), "-q", "-o", path("out"), "--set", "output.max_bytes=1e6"});
-  expect_refusal(outcome, 2, "more than output.max_bytes allows, 1 MB");
+  expect_refusal(outcome, 2, "more than output.max_bytes allows, 1.0 MB");
   EXPECT_FALSE(std::filesystem::exists(path("out/fields")));
 }
 

@@ -70,6 +70,23 @@ TEST(SceneWarnings, CohesiveZoneOfEitherMode) {
               Contains(HasSubstr("sliding (mode II) is not resolved: its cohesive zone (4.63 mm)")));
 }
 
+TEST(SceneWarnings, CohesiveZoneOfLayersOnceWithThoseThatHaveIt) {
+  Scene s = quiet_scene();
+  s.cohesive.fracture_energy_mode2 = 80.0;
+  s.layers = {s, s};
+  const auto of_mode2 = [&] {
+    std::vector<std::string> lines = warnings(s);
+    std::erase_if(lines, [](const std::string& line) { return line.find("mode II") == std::string::npos; });
+    return lines;
+  };
+  EXPECT_THAT(of_mode2(), testing::ElementsAre(Not(HasSubstr("(in"))));
+  s.layers[1].cohesive.fracture_energy_mode2 = 5000.0;
+  EXPECT_THAT(of_mode2(), testing::ElementsAre(HasSubstr("(in the rock beside the layers, layers.0)")));
+  s.layers[0].cohesive.fracture_energy_mode2 = 60.0;
+  EXPECT_THAT(of_mode2(),
+              testing::ElementsAre(HasSubstr("(in the rock beside the layers)"), HasSubstr("(in layers.0)")));
+}
+
 // validation.md finding 1: the paper's penalty leaves 0.65 of E', at the best on Delaunay meshes.
 TEST(SceneWarnings, PenaltyCompliance) {
   Scene s = quiet_scene();
