@@ -51,7 +51,7 @@ struct FieldTimeRow {
   double injected = 0.0, well_stored = 0.0, fracture_volume = 0.0, leaked = 0.0;  ///< [m2]
   double mass_defect = 0.0;                          ///< of the balance of these [m2]
   double broken_length = 0.0, damaged_length = 0.0;  ///< of one wing [m]
-  double half_length = 0.0;                          ///< the mean of these [m]
+  double half_length = 0.0;  ///< of the crack without cohesion that opens as this one does [m]
   double opening = 0.0, mean_opening = 0.0;          ///< at the well, of the whole [m]
   double contact_fraction = 0.0;                     ///< of the faces [-]
   double closure_stress = 0.0;                       ///< total compression across the fracture [Pa]
