@@ -48,7 +48,7 @@ FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, co
   h.mass_defect = row.mass_defect * wings;
   h.broken_length = row.broken_length / halves;
   h.damaged_length = row.damaged_length / halves;
-  h.half_length = 0.5 * (h.broken_length + h.damaged_length);
+  h.half_length = row.elastic_length / halves;
   h.opening = row.opening;
   h.mean_opening = row.mean_opening;
   h.contact_fraction = row.contact_fraction;

@@ -106,11 +106,14 @@ double InterfaceLaw::stored(double opening, double max_opening, double in_situ) 
          closure_.energy(pressed, largest) + (t.traction + 0.5 * t.slope * beyond) * beyond;
 }
 
+double InterfaceLaw::cohesion(double max_opening) const {
+  const double d = damage(max_opening);
+  return d > 0.0 && d < 1.0 ? strength_ * law_->softening(d) : 0.0;
+}
+
 double InterfaceLaw::shear_stiffness(double max_opening) const {
   const double beta2 = shear_.ratio * shear_.ratio;
-  if (max_opening <= elastic_) return beta2 * strength_ / elastic_;
-  const double d = damage(max_opening);
-  return d < 1.0 ? beta2 * strength_ * law_->softening(d) / max_opening : 0.0;
+  return beta2 * (max_opening <= elastic_ ? strength_ / elastic_ : cohesion(max_opening) / max_opening);
 }
 
 double InterfaceLaw::stored_by_slip(double opening, double slip, double max_opening, double friction,

@@ -7,8 +7,9 @@
 
 namespace crackle {
 
-CarterLeakOff::Volume CarterLeakOff::volume(double from, double to, double pressure) const {
-  const double full = 2.0 * coefficient * (std::sqrt(std::max(to, 0.0)) - std::sqrt(std::max(from, 0.0)));
+CarterLeakOff::Volume CarterLeakOff::volume(double before, double dt, double pressure, double bare) const {
+  const double reach = 2.0 * coefficient * bare;
+  const double full = std::sqrt(before * before + reach * reach * dt) - before;
   const double share = (pressure - reservoir_pressure) / cut_off;
   if (share <= 0.0) return {};
   if (share >= 1.0) return {full, 0.0};

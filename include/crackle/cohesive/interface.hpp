@@ -65,6 +65,8 @@ class InterfaceLaw {
   double stored(double opening, double max_opening, double in_situ) const;
   /// Energy dissipated per area by a point that has been open by `max_opening` [J/m2].
   double dissipated(double max_opening) const;
+  /// Traction of the bond at the largest opening [Pa]; 0 before it softens and after it has broken.
+  double cohesion(double max_opening) const;
   /// Shear traction over slip of what holds a point together [Pa/m].
   double shear_stiffness(double max_opening) const;
   /// Energy per area that slip holds beside it [J/m2]: in the bond, and between closed faces.

@@ -2,7 +2,8 @@
 //
 // Leak-off from a fracture into the rock, per area of one face.
 //   Carter (1957)     v = C_L / √(t − t₀), so V = 2 C_L √(t − t₀)       (t₀: exposure)
-//                     times clamp((p − p_res)/p_cut, 0, 1): no leak-off from a starved cell
+//                     as v = 2 C_L²/V (what has leaked resists), times clamp((p − p_res)/p_cut, 0, 1): a
+//                     starved cell leaks nothing now, and more when it is filled
 //   diffusion         φ c_t ∂p/∂t = (k/μ) ∂²p/∂x², normal to the face, p = p_res at first
 //                     (V = 2 Δp √(k φ c_t t/(π μ)) at constant pressure: C_L = Δp √(k φ c_t/(π μ)))
 // Limits: one-dimensional, so short against the length of the fracture; no stress from the pressure
@@ -20,12 +21,12 @@ struct CarterLeakOff {
   double reservoir_pressure = 0.0;  ///< p_res [Pa]
   double cut_off = 2e6;             ///< p_cut [Pa]
 
-  /// Volume per area of one face [m] that leaks between two times after the exposure [s], at a pressure
-  /// [Pa]; `slope` by the pressure.
+  /// Volume per area of one face [m] that leaks in a time dt [s] where `before` [m] has leaked, at a pressure
+  /// [Pa]; `slope` by the pressure. @param bare share of the face that fluid has reached [-]
   struct Volume {
     double value = 0.0, slope = 0.0;
   };
-  Volume volume(double from, double to, double pressure) const;
+  Volume volume(double before, double dt, double pressure, double bare = 1.0) const;
 };
 
 struct MatrixRock {

@@ -52,10 +52,10 @@ struct FieldTimeRow {
   double injected = 0.0, well_stored = 0.0, fracture_volume = 0.0, leaked = 0.0;  ///< [m2]
   double mass_defect = 0.0;                          ///< of the balance of these [m2]
   double broken_length = 0.0, damaged_length = 0.0;  ///< of one wing [m]
-  double half_length = 0.0;                          ///< the mean of these [m]
-  double opening = 0.0, mean_opening = 0.0;          ///< at the well, of the whole [m]
-  double contact_fraction = 0.0;                     ///< of the faces [-]
-  double closure_stress = 0.0;                       ///< total compression across the fracture [Pa]
+  double half_length = 0.0;  ///< of the crack without cohesion that opens as this one does [m]
+  double opening = 0.0, mean_opening = 0.0;  ///< at the well, of the whole [m]
+  double contact_fraction = 0.0;             ///< of the faces [-]
+  double closure_stress = 0.0;               ///< total compression across the fracture [Pa]
   double work_pump = 0.0, energy_well = 0.0, energy_entry = 0.0, energy_viscous = 0.0, energy_leaked = 0.0,
          energy_fluid = 0.0, energy_strain = 0.0, energy_confinement = 0.0, energy_faces = 0.0,
          energy_fracture = 0.0, energy_friction = 0.0;  ///< [J/m]

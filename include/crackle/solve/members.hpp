@@ -98,6 +98,7 @@ void members(Cell& c, V&& v) {
   v("pressure", c.pressure);
   v("mass", c.mass);
   v("exposed", c.exposed);
+  v("sweep", c.sweep);
   v("leaked", c.leaked);
 }
 

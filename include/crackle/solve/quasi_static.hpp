@@ -96,6 +96,7 @@ struct QuasiStaticRow {
   double mass_defect = 0.0;       ///< injected less what is found [m2]
   double broken_length = 0.0;     ///< all wings, up to where nothing holds any more [m]
   double damaged_length = 0.0;    ///< up to where damage begins [m]
+  double elastic_length = 0.0;    ///< of the crack without cohesion that opens as this one does [m]
   double opening = 0.0;           ///< at the well [m]
   double mean_opening = 0.0;      ///< of fluid-filled cells [m]
   double contact_fraction = 0.0;  ///< of their length, where faces touch [-]

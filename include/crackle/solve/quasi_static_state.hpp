@@ -31,8 +31,9 @@ struct Cell {
   std::uint8_t wet = 0;
   double pressure = 0.0;  ///< [Pa]
   double mass = 0.0;      ///< over reference density [m2]
-  /// Since when it leaks off [s]: half damaged, where an ideal fracture would have its tip.
+  /// Since when it leaks off [s]: when an elastic crack's tip would have passed its inner end.
   double exposed = std::numeric_limits<double>::infinity();
+  double sweep = 0.0;   ///< how long that tip takes to its outer end [s]
   double leaked = 0.0;  ///< both faces [m2]
 };
 

@@ -358,8 +358,8 @@ ValueSlope leak(const Equations& equations, const State& state, Index cell, doub
   if (state.time < c.exposed) return {};
   const double faces = 2.0 * equations.path.edges()[at(cell)].length;
   if (const auto* carter = std::get_if<CarterLeakOff>(&equations.scene.leak_off)) {
-    const double since = state.time - c.exposed;
-    const auto v = carter->volume(since, since + dt, pressure);
+    const double since = state.time + dt - c.exposed, bare = since < c.sweep ? since / c.sweep : 1.0;
+    const auto v = carter->volume(c.leaked / faces, dt, pressure, bare);
     return {faces * v.value, faces * v.slope};
   }
   if (equations.matrix) {

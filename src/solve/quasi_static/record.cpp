@@ -2,12 +2,31 @@
 #include "record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace crackle::quasi_static {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// How far behind the front of a cohesive zone a crack without cohesion would end that opens as much away from
+// it [m]. Cohesion σ at x behind the front takes (8 σ/π E') √(x/r) of the opening at r >> x, and the front's
+// stress intensity of 0 sets K = √(2/π) ∫ σ/√x dx; a shift by s takes K s/(2 r) of the opening of K, so
+//   s = 2 ∫ σ √x dx / ∫ σ/√x dx     (half openings by point forces: Tada, Paris, Irwin 2000)
+double behind_front(const Equations& e, const State& state, Index tip) {
+  double x = 0.0, moment = 0.0, force = 0.0;
+  for (Index c = state.cells[at(tip)].parent; c >= 0; c = state.cells[at(c)].parent) {
+    const double sigma = e.laws[at(c)].cohesion(state.cells[at(c)].points[0].max_opening);
+    const Index parent = state.cells[at(c)].parent;
+    if (sigma == 0.0 || parent < 0) break;
+    const double to = x + 0.5 * (e.path.edges()[at(c)].length + e.path.edges()[at(parent)].length);
+    moment += sigma * 2.0 / 3.0 * (std::pow(to, 1.5) - std::pow(x, 1.5));
+    force += sigma * 2.0 * (std::sqrt(to) - std::sqrt(x));
+    x = to;
+  }
+  return force > 0.0 ? 2.0 * moment / force : 0.0;
+}
 
 }  // namespace
 
@@ -53,6 +72,8 @@ QuasiStaticRow row_of(const Equations& e, const State& state) {
     row.mean_opening += 0.5 * edge.length * (w[0] + w[1]);
     row.least_pressure = std::min(row.least_pressure, cell.pressure);
   }
+  row.elastic_length = row.damaged_length;
+  for (const Tip& tip : state.tips) row.elastic_length -= behind_front(e, state, tip.cell);
   row.mean_opening /= wet;
   row.contact_fraction = touching / wet;
   for (const Inlet& inlet : state.inlets) {

@@ -45,8 +45,13 @@ TEST(LeakOff, DiffusionAtConstantPressure) {
 TEST(LeakOff, CarterIsExactOverAStepAndStopsAtTheReservoir) {
   const CarterLeakOff carter{5e-6, 10e6, 2e6};
   EXPECT_NEAR(carter.volume(0.0, 4.0, 20e6).value, 2.0 * 5e-6 * 2.0, 1e-18);
-  EXPECT_NEAR(carter.volume(0.0, 1.0, 20e6).value + carter.volume(1.0, 4.0, 20e6).value,
-              carter.volume(0.0, 4.0, 20e6).value, 1e-18);
+  const double first = carter.volume(0.0, 1.0, 20e6).value;
+  EXPECT_NEAR(first + carter.volume(first, 3.0, 20e6).value, carter.volume(0.0, 4.0, 20e6).value, 1e-18);
+  // Half a face leaks half as much, and what a starved one has not leaked it leaks later.
+  EXPECT_NEAR(carter.volume(0.0, 4.0, 20e6, 0.5).value, 5e-6 * 2.0, 1e-18);
+  const double starved = carter.volume(0.0, 1.0, 11e6).value;
+  EXPECT_NEAR(starved, 0.5 * first, 1e-18);
+  EXPECT_GT(carter.volume(starved, 3.0, 20e6).value, carter.volume(first, 3.0, 20e6).value);
   EXPECT_EQ(carter.volume(0.0, 4.0, 9e6).value, 0.0);
   EXPECT_NEAR(carter.volume(0.0, 4.0, 11e6).value, 5e-6 * 2.0, 1e-18);
 }

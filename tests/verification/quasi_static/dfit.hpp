@@ -39,7 +39,7 @@ inline PressureRecord run(QuasiStatic& stage, double end) {
     record.time.push_back(row.time);
     record.pressure.push_back(row.well_pressure);
     record.rate.push_back(2.0 * height * stage.scene().pump.rate(row.time));
-    record.truth["half_length_m"].push_back(0.5 * (row.broken_length + row.damaged_length));
+    record.truth["half_length_m"].push_back(row.elastic_length);
   };
   note(stage.row());
   stage.run(end, note);

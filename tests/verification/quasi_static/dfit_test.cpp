@@ -40,7 +40,7 @@ TEST(Dfit, Reference) {
     if (row.well_pressure >= 76e6 * (1 - 1e-9)) breakdown = row.time;
   }
   const QuasiStaticRow end = at_time(shut_in);
-  const double length = 0.5 * (end.broken_length + end.damaged_length);
+  const double length = end.elastic_length;
   std::printf("%zu steps, %ld iterations, %ld rejected, %.1f s, mass %.1e\n", rows.size(),
               stage.newton_iterations(), stage.rejected_steps(), wall, defect);
   std::printf(
@@ -84,7 +84,7 @@ TEST(Dfit, WithoutLeakOffPressureStays) {
   stage.run(shut_in + 1e4, [&](const QuasiStaticRow& row) { early = row; });
   stage.run(shut_in + 1.1e5, [&](const QuasiStaticRow& row) { late = row; });
   const double k = std::sqrt(42.5e9 / (1.0 - 0.17 * 0.17) * 100.0);
-  const double length = 0.5 * (late.broken_length + late.damaged_length);
+  const double length = late.elastic_length;
   const double expected = closure_stress + k / std::sqrt(M_PI * length);
   std::printf("no leak-off: length %.1f m, p %.5f MPa (%.5f), changes by %.1f Pa over 1e5 s\n", length,
               late.well_pressure * 1e-6, expected * 1e-6, late.well_pressure - early.well_pressure);

@@ -110,7 +110,7 @@ TEST(Paths, UnequalWings) {
     if (row.time < 8.0) return;
     const Vertex exact = vertex_of(row.fracture_volume);
     pressure.add(row.step, row.fracture_pressure - pore - 9.44e6, exact.pressure);
-    length.add(row.step, 0.25 * (row.broken_length + row.damaged_length), exact.half_length);
+    length.add(row.step, 0.5 * row.elastic_length, exact.half_length);
   });
   double low = 0.0, high = 0.0, off = 0.0;
   const std::vector<FractureCell> cells = stage.cells();
@@ -162,7 +162,7 @@ TEST(Paths, RandomMesh) {
     if (row.time < 8.0) return;
     const Vertex exact = vertex_of(row.fracture_volume);
     pressure.add(row.step, row.fracture_pressure - pore - 9.44e6, exact.pressure);
-    length.add(row.step, 0.25 * (row.broken_length + row.damaged_length), exact.half_length);
+    length.add(row.step, 0.5 * row.elastic_length, exact.half_length);
   });
   for (const PathEdge& e : stage.path().edges()) off = std::max(off, std::abs(middle(stage, e).y));
   std::printf("random mesh: off the line by %.2f m; energy residual %.1e\n", off, last.energies.residual);
