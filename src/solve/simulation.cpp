@@ -338,8 +338,11 @@ void Simulation::relax() {
   const int most = 200000;
   const bool pressed = fluid_ && scene_.initial_pressure != 0.0 &&
                        scene_.cracks.size() + scene_.damage.cut.size() > scene_.dry_cracks.size();
-  if (pressed) fluid_->hold(scene_.initial_pressure);  // a crack has no volume yet to hold fluid by its mass
+  // A crack has no volume yet to hold fluid by its mass. Pressed at once it would overshoot and might grow: in some
+  // runs of a wave along it.
+  const int rise = pressed ? 40 * static_cast<int>(scene_.cracks.size() + scene_.damage.cut.size()) : 0;
   for (int i = 0; i < most; ++i) {
+    if (i <= rise && pressed) fluid_->hold(scene_.initial_pressure * i / rise);
     state_.time = -2.0 * dt;  // before the pump starts
     advance(dt, nullptr);
     double kinetic = 0.0;
@@ -350,7 +353,7 @@ void Simulation::relax() {
     peak = std::max(peak, kinetic);
     if (kinetic < before || kinetic == 0.0) {
       std::fill(state_.velocity.begin(), state_.velocity.end(), Vec2{});
-      if (before <= std::max(1e-9 * peak, nothing)) {
+      if (i > rise && before <= std::max(1e-9 * peak, nothing)) {
         state_.time = 0.0;
         state_.step = 0;
         if (pressed) {
@@ -420,6 +423,7 @@ void Simulation::prepare_insertion() {
   std::sort(cracks.begin(), cracks.end());
   insert(cracks);
   cut_cracks();
+  if (!scene_.damage.law) part_tips();
   insert_joints();
 }
 
@@ -461,6 +465,20 @@ void Simulation::wet_joints() {
 
 void Simulation::cut_cracks() {
   for (const Index e : scene_.cracks) cohesive_->cut(state_, state_.cohesive.of_edge[at(e)]);
+}
+
+// At the tip of a cut crack stress is singular, and constant in triangles, which would see it late.
+void Simulation::part_tips() {
+  std::vector<Index> edges;
+  for (const Index e : scene_.cracks) {
+    const auto& n = state_.cohesive.nodes[at(state_.cohesive.of_edge[at(e)])];
+    const auto& ends = scene_.mesh->edges[at(e)].vertex;
+    if (n[0] == n[2]) add_tied_edges_at(ends[0], edges);
+    if (n[1] == n[3]) add_tied_edges_at(ends[1], edges);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  insert(edges);
 }
 
 void Simulation::add_tied_edges_at(Index vertex, std::vector<Index>& edges) const {

@@ -221,6 +221,7 @@ class Simulation {
   static double longest_joint_edge(const Mesh& mesh);
   SeismicMedium medium() const;
   void cut_cracks();
+  void part_tips();
   void unbond_joints();
   void wet_joints();
   void prepare_insertion();
