@@ -91,7 +91,7 @@ def table(rows):
 def draw(runs, rows, path):
     kinds = list(dict.fromkeys((r["ratio"], r["bedding_deg"]) for r in rows))
     methods = [m for m in gallery.METHODS if any(r["method"] == m for r in rows)]
-    figure, grid = plt.subplots(1, len(kinds), figsize=(14.0, 4.6), sharex=True, sharey=True)
+    figure, grid = plt.subplots(1, len(kinds), figsize=(14.0, 4.0), sharex=True, sharey=True)
     for axes, (ratio, angle) in zip(grid, kinds):
         row = next(r for r in rows if (r["ratio"], r["bedding_deg"]) == (ratio, angle))
         for method in methods:
@@ -115,7 +115,7 @@ def draw(runs, rows, path):
                 middle = np.array([-5.0, 12.0]) + k * 2.0 * np.array([-along[1], along[0]])
                 ends = np.array([middle - 5.0 * along, middle + 5.0 * along])
                 axes.plot(ends[:, 0], ends[:, 1], color="#8d5524", linewidth=0.8)
-        axes.set(xlim=(-25, 5), ylim=(-35, 20), aspect="equal")
+        axes.set(xlim=(-25, 5), ylim=(-22, 20), aspect="equal")
         axes.set_title("isotropic" if ratio == 1 else f"E_h/E_v = {ratio},\nbedding at {angle}°", fontsize=8.5, loc="left")
     handles = {text: handle for axes in grid for handle, text in zip(*axes.get_legend_handles_labels())}
     figure.subplots_adjust(left=0.04, right=0.99, top=0.9, bottom=0.2, wspace=0.1)

@@ -423,8 +423,8 @@ void Simulation::prepare_insertion() {
   std::sort(cracks.begin(), cracks.end());
   insert(cracks);
   cut_cracks();
-  if (!scene_.damage.law) part_tips();
   insert_joints();
+  if (!scene_.damage.law) part_tips();
 }
 
 void Simulation::insert_joints() {
