@@ -14,7 +14,7 @@ import gallery
 import look
 import results_page
 
-HALF_LENGTH, WIDTH, REACH = 10e-3, 0.1, 8e-3  # [m]
+HALF_LENGTH, WIDTH, REACH = 10e-3, 0.1, 4e-3  # [m]
 FINITE_WIDTH = 1.02  # of the plate, on K
 
 

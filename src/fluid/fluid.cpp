@@ -33,6 +33,12 @@ double reference_area(const State& state, Index triangle) {
   return 0.5 * cross(state.reference(3 * triangle + 1) - a, state.reference(3 * triangle + 2) - a);
 }
 
+// A cavity is at one of its vertices.
+bool touches(const State& state, const DamagedTriangle& d) {
+  return std::ranges::any_of(state.mesh->triangles[at(d.triangle)],
+                             [&](Index v) { return state.fluid.cavity_of_vertex[at(v)] >= 0; });
+}
+
 }  // namespace
 
 Fluid::Fluid(const State& state, const CompressibleFluid& fluid, Pump pump)
@@ -161,6 +167,16 @@ std::vector<Index> Fluid::damaged_ahead(const State& state) const {
   return ahead;
 }
 
+std::vector<Index> Fluid::damaged_triangles_ahead(const State& state) const {
+  std::vector<Index> ahead;
+  const auto& damaged = state.damage.triangles;
+  for (std::size_t i = 0; i < damaged.size(); ++i) {
+    const DamagedTriangle& d = damaged[i];
+    if (d.cavity < 0 && d.opening > 0.0 && touches(state, d)) ahead.push_back(static_cast<Index>(i));
+  }
+  return ahead;
+}
+
 void Fluid::connect(State& state, std::span<const Index> broken) {
   const FluidState& f = state.fluid;
   const Mesh& mesh = *state.mesh;
@@ -176,14 +192,11 @@ void Fluid::connect(State& state, std::span<const Index> broken) {
   wet(state, std::move(reached));
 }
 
-void Fluid::connect_triangles(State& state, std::span<const Index> failed) {
+void Fluid::connect_triangles(State& state, std::span<const Index> damaged) {
   Reached reached;
-  for (const Index i : failed) {
+  for (const Index i : damaged) {
     const DamagedTriangle& d = state.damage.triangles[at(i)];
-    const bool touches = std::ranges::any_of(state.mesh->triangles[at(d.triangle)], [&](Index v) {
-      return state.fluid.cavity_of_vertex[at(v)] >= 0;
-    });
-    if (d.cavity < 0 && touches) reached.triangles.push_back(i);
+    if (d.cavity < 0 && touches(state, d)) reached.triangles.push_back(i);
   }
   wet(state, std::move(reached));
 }

@@ -306,7 +306,7 @@ std::vector<TableSpec> make_tables() {
       number("bulk_modulus", slot<&C::fluid, &C::Fluid::bulk_modulus>(), pressure, stiffness, Need::never, "bulk modulus of the fluid"),
       number("density", slot<&C::fluid, &C::Fluid::density>(), density, positive, Need::never, "mass density of the fluid at the initial pressure"),
       number("initial_pressure", slot<&C::fluid, &C::Fluid::initial_pressure>(), pressure, any, Need::never, "of the fluid before pumping", "rock.pore_pressure"),
-      choice("wets", slot<&C::fluid, &C::Fluid::wets>(), {"broken", "damaged"}, "which cohesive elements the fluid enters, next to where it is: broken ones, or already those that have begun to open"),
+      choice("wets", slot<&C::fluid, &C::Fluid::wets>(), {"broken", "damaged"}, "which cohesive elements and damaged triangles the fluid enters, next to where it is: broken ones, or already those that have begun to open"),
       number("viscosity", slot<&C::fluid, &C::Fluid::viscosity>(), viscosity, not_negative, Need::never, "along the fracture, in the quasi-static regime"),
       number("cavitation_pressure", slot<&C::fluid, &C::Fluid::cavitation_pressure>(), pressure, any, Need::never, "below it the fluid boils, in the quasi-static regime", "0, or 5 MPa below rock.pore_pressure where that is small"),
       choice("flow", slot<&C::fluid, &C::Fluid::flow>(), {"auto", "uniform", "viscous", "turbulent"}, "in the quasi-static regime: one pressure all along the fracture, or falling by the fluid's viscosity, laminar or with turbulent friction; \"auto\": uniform without a viscosity"),

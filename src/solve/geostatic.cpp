@@ -222,8 +222,11 @@ void Simulation::relax() {
   const int most = 200000;
   const bool pressed = fluid_ && scene_.initial_pressure != 0.0 &&
                        scene_.cracks.size() + scene_.damage.cut.size() > scene_.dry_cracks.size();
-  if (pressed) fluid_->hold(scene_.initial_pressure);  // a crack has no volume yet to hold fluid by its mass
+  // A crack has no volume yet to hold fluid by its mass. Pressed at once it would overshoot and might grow: in some
+  // runs of a wave along it.
+  const int rise = pressed ? 40 * static_cast<int>(scene_.cracks.size() + scene_.damage.cut.size()) : 0;
   for (int i = 0; i < most; ++i) {
+    if (i <= rise && pressed) fluid_->hold(scene_.initial_pressure * i / rise);
     state_.time = -2.0 * dt;  // before the pump starts
     advance(dt, nullptr);
     double kinetic = 0.0;
@@ -234,7 +237,7 @@ void Simulation::relax() {
     peak = std::max(peak, kinetic);
     if (kinetic < before || kinetic == 0.0) {
       std::fill(state_.velocity.begin(), state_.velocity.end(), Vec2{});
-      if (before <= std::max(1e-9 * peak, nothing)) {
+      if (i > rise && before <= std::max(1e-9 * peak, nothing)) {
         state_.time = 0.0;
         state_.step = 0;
         if (pressed) {

@@ -66,6 +66,7 @@ void Simulation::prepare_insertion() {
   insert(cracks);
   cut_cracks();
   insert_joints();
+  if (!scene_.damage.law) part_tips();
 }
 
 void Simulation::insert_joints() {
@@ -106,6 +107,20 @@ void Simulation::wet_joints() {
 
 void Simulation::cut_cracks() {
   for (const Index e : scene_.cracks) cohesive_->cut(state_, state_.cohesive.of_edge[at(e)]);
+}
+
+// At the tip of a cut crack stress is singular, and constant in triangles, which would see it late.
+void Simulation::part_tips() {
+  std::vector<Index> edges;
+  for (const Index e : scene_.cracks) {
+    const auto& n = state_.cohesive.nodes[at(state_.cohesive.of_edge[at(e)])];
+    const auto& ends = scene_.mesh->edges[at(e)].vertex;
+    if (n[0] == n[2]) add_tied_edges_at(ends[0], edges);
+    if (n[1] == n[3]) add_tied_edges_at(ends[1], edges);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  insert(edges);
 }
 
 void Simulation::add_tied_edges_at(Index vertex, std::vector<Index>& edges) const {

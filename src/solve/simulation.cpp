@@ -208,6 +208,8 @@ void Simulation::advance(double dt, Energies* account) {
   if (fluid_ && scene_.wets_damaged) {
     const std::vector<Index> damaged = fluid_->damaged_ahead(state_);
     if (!damaged.empty()) fluid_->connect(state_, damaged);
+    const std::vector<Index> triangles = fluid_->damaged_triangles_ahead(state_);
+    if (!triangles.empty()) fluid_->connect_triangles(state_, triangles);
     stopwatch_.lap(Stopwatch::fluid);
   }
   if (fluid_ && scene_.joints_edge_by_edge) {

@@ -19,8 +19,9 @@ namespace crackle {
 /// Green's theorem (Eq. 6.5) is the cavity's volume and the gradient of that area, times the
 /// pressure, the force on the nodes: work and energy match to round-off.
 ///
-/// Where the rock breaks by smeared damage the fluid is in failed triangles: by how much their area has grown
-/// is its volume there, and its pressure acts all round inside them, beside what stress they bear.
+/// Where the rock breaks by smeared damage the fluid is in triangles that failed, or in damaged ones: by how
+/// much their area has grown is its volume there, and its pressure acts all round inside them, beside what
+/// stress they bear.
 class Fluid {
  public:
   Fluid(const State& state, const CompressibleFluid& fluid, Pump pump);
@@ -45,10 +46,10 @@ class Fluid {
   /// @param broken elements that broke in this step
   void connect(State& state, std::span<const Index> broken);
 
-  /// The same for damaged triangles that failed: the fluid enters those that share a vertex with a cavity.
+  /// The same for damaged triangles: the fluid enters those that share a vertex with a cavity.
   /// From elements it goes on into triangles, and from triangles into elements.
-  /// @param failed numbers of triangles in state.damage
-  void connect_triangles(State& state, std::span<const Index> failed);
+  /// @param damaged numbers of triangles in state.damage
+  void connect_triangles(State& state, std::span<const Index> damaged);
 
   /// From now on an edge of a joint of the mesh is entered only once its faces are apart; else a fracture
   /// that reaches a joint without cohesion wets the whole of it, and those that cross it, at once.
@@ -59,6 +60,8 @@ class Fluid {
   /// Dry elements next to a cavity that have begun to open, broken or not: to connect(), where the fluid
   /// does not wait until they break.
   std::vector<Index> damaged_ahead(const State& state) const;
+  /// The same for damaged triangles, as numbers in state.damage: to connect_triangles().
+  std::vector<Index> damaged_triangles_ahead(const State& state) const;
 
   /// One step, after the rock has moved without the fluid (v*, x*): pumps, finds the pressure that
   /// fits the volume with it, and moves the wetted nodes on:

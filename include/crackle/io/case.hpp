@@ -181,7 +181,7 @@ struct Case {
     double bulk_modulus = 2.2e9;    ///< [Pa]
     double density = 1000.0;        ///< at initial pressure [kg/m3]
     double initial_pressure = 0.0;  ///< [Pa]
-    std::string wets = "broken";    ///< which cohesive elements the fluid enters: "broken" or "damaged"
+    std::string wets = "broken";    ///< which elements and triangles the fluid enters: "broken" or "damaged"
     double viscosity = 0.0;         ///< in the quasi-static regime [Pa s]
     std::optional<double> cavitation_pressure;  ///< [Pa]
     std::string flow = "auto";          ///< in the quasi-static regime "uniform", "viscous", "turbulent"

@@ -83,7 +83,8 @@ struct Scene : RockMass {
   bool joints_edge_by_edge =
       false;  ///< the fluid enters a joint's edges as they open; else a whole joint at once
   std::optional<CompressibleFluid> fluid;
-  bool wets_damaged = false;      ///< the fluid enters elements that have begun to open; else broken ones
+  bool wets_damaged =
+      false;  ///< the fluid enters elements and triangles that have begun to open; else broken ones
   double initial_pressure = 0.0;  ///< of the fluid, above pore_pressure [Pa]
   double pore_pressure = 0.0;     ///< of the formation: only what is told of pressures has it added [Pa]
   Pump pump;
@@ -224,6 +225,7 @@ class Simulation {
   static double longest_joint_edge(const Mesh& mesh);
   SeismicMedium medium() const;
   void cut_cracks();
+  void part_tips();
   void unbond_joints();
   void wet_joints();
   void prepare_insertion();
