@@ -22,7 +22,7 @@ namespace {
 struct FrameBytes {
   double base, displacement, velocity, stress;
 };
-constexpr FrameBytes frame_split{39.4, 20.6, 23.0, 10.2}, frame_on_demand{20.0, 8.2, 8.2, 10.0};
+constexpr FrameBytes frame_split{39.4, 20.6, 23.0, 10.2}, frame_on_demand{13.0, 4.2, 4.2, 10.3};
 constexpr FrameBytes frame_field_time{19.0, 8.5, 0.0, 9.5};
 constexpr double history_row = 270.0, history_row_field_time = 450.0;
 constexpr double frame_heads = 7e3, other_files = 6e3;  // of fields and fractures; log, case, summary
