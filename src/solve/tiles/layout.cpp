@@ -81,6 +81,11 @@ Tiles::Reads::Reads(const State& state, const Tile& tile) {
   add(range_of(tile.sides.data(), tile.sides.size()));
   add(range_of(tile.ends.data(), tile.ends.size()));
   add(range_of(tile.numbers.data(), tile.numbers.size()));
+  add(range_of(tile.partial.data(), tile.partial.size()));
+  add(range_of(tile.owned.data(), tile.owned.size()));
+  add(range_of(tile.from.data(), tile.from.size()));
+  add(range_of(tile.parts.data(), tile.parts.size()));
+  add(range_of(tile.part.data(), tile.part.size()));
   if (!tile.viscosity.empty()) {
     add(range_of(tile.viscosity.data(), tile.viscosity.size()));
     add(range_of(state.strain_rate.data() + tile.begin / block_size, 1));
