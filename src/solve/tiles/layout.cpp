@@ -52,8 +52,7 @@ void append(std::vector<tiles::Run>& runs, Index node, std::uint16_t local) {
 
 template <class T>
 tiles::Ahead::Range range_of(const T* first, std::size_t count) {
-  const char* from = reinterpret_cast<const char*>(first);
-  return {from, from + count * sizeof(T)};
+  return {reinterpret_cast<const char*>(first), reinterpret_cast<const char*>(first + count)};
 }
 
 }  // namespace
