@@ -157,7 +157,8 @@ void aim(const State& state, const Link& link, Index vertex, Vec2 on_node_before
 }
 
 // Those at vertices where nodes have parted, as far as they were there before: what they bear is not known.
-std::vector<Index> intact_elements_at(const State& state, std::span<const Parting> partings, Index first_new) {
+std::vector<Index> intact_elements_at(const State& state, std::span<const Parting> partings,
+                                      Index first_new) {
   const CohesiveElements& c = state.cohesive;
   std::vector<Index> elements;
   for (const Parting& parting : partings) {

@@ -199,7 +199,12 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
   const Index nodes = state_.node_count();
   const Index first = state_.cohesive.count();
   std::vector<Fluid::CornerLoad> loads;
-  if (fluid_) loads = fluid_->corner_loads(state_);
+  const bool wet = fluid_ && std::ranges::any_of(edges, [&](Index e) {
+                     return std::ranges::any_of(scene_.mesh->edges[at(e)].vertex, [&](Index v) {
+                       return state_.fluid.cavity_of_vertex[at(v)] >= 0;
+                     });
+                   });
+  if (wet) loads = fluid_->corner_loads(state_);
   const auto rock = [&](Index corner) { return bulk_.triangle_forces(state_, corner / 3)[at(corner % 3)]; };
   const auto load = [&](Index corner) {
     Vec2 sum;
@@ -212,7 +217,7 @@ void Simulation::insert(const std::vector<Index>& edges, std::uint16_t material)
       static_cast<Index>(cohesive_->insert(state_, edges, penalty, numbers, rock, load).size());
   if (tiles_) tiles_->inserted(state_, physics(), edges);
   if (state_.node_count() == nodes) return;
-  if (fluid_) fluid_->rebuild(state_);
+  if (wet) fluid_->rebuild(state_);
   for (Index i = first; i < state_.cohesive.count(); ++i) {
     for (const Index n : state_.cohesive.nodes[at(i)]) {
       slowed_ = std::min(slowed_, node_step(state_, bulk_, cohesive(), n) / stable_.limit);

@@ -72,8 +72,8 @@ struct Field {
   void add(double value) { values.push_back(static_cast<float>(value)); }
 };
 
-/// What one frame of fields/*.vtu shows. Where rock has come apart there are several points at a place, so that
-/// fractures are seen as gaps.
+/// What one frame of fields/*.vtu shows. Where rock has come apart there are several points at a place, so
+/// that fractures are seen as gaps.
 struct FieldFrame {
   double time = 0.0;                            ///< [s]
   std::vector<Vec2> points;                     ///< reference position + displacement [m]

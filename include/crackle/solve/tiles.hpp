@@ -66,6 +66,8 @@ class Tiles {
   void link(const State& state, Index i);
   void work(State& state, const Physics& physics, Index i, double dt, const StressScreen& screen,
             std::span<std::uint8_t> stressed, std::span<char> tile_stressed);
+  static void fetch_owned(const State& state, const Tile& tile);
+  static void fetch_nodes(const State& state, const Tile& tile);
   /// Of the nodes whose last part is the tile's, those whose first part is in one of [begin, end).
   static void move_shared(State& state, const Tile& tile, double dt, Index begin, Index end);
 

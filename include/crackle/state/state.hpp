@@ -181,7 +181,7 @@ struct alignas(64) StrainRates {
   std::array<double, 3 * static_cast<std::size_t>(block_size)> number{};
 
   static constexpr std::size_t place(Index i) {
-    return static_cast<std::size_t>(24 * (i % groups) + i / groups);
+    return 24 * static_cast<std::size_t>(i % groups) + static_cast<std::size_t>(i / groups);
   }
   Sym2 of(Index i) const { return {number[place(i)], number[place(i) + 8], number[place(i) + 16]}; }
   void set(Index i, Sym2 rate) {

@@ -52,8 +52,7 @@ void append(std::vector<tiles::Run>& runs, Index node, std::uint16_t local) {
 
 template <class T>
 tiles::Ahead::Range range_of(const T* first, std::size_t count) {
-  const char* from = reinterpret_cast<const char*>(first);
-  return {from, from + count * sizeof(T)};
+  return {reinterpret_cast<const char*>(first), reinterpret_cast<const char*>(first + count)};
 }
 
 }  // namespace
@@ -81,6 +80,11 @@ Tiles::Reads::Reads(const State& state, const Tile& tile) {
   add(range_of(tile.sides.data(), tile.sides.size()));
   add(range_of(tile.ends.data(), tile.ends.size()));
   add(range_of(tile.numbers.data(), tile.numbers.size()));
+  add(range_of(tile.partial.data(), tile.partial.size()));
+  add(range_of(tile.owned.data(), tile.owned.size()));
+  add(range_of(tile.from.data(), tile.from.size()));
+  add(range_of(tile.parts.data(), tile.parts.size()));
+  add(range_of(tile.part.data(), tile.part.size()));
   if (!tile.viscosity.empty()) {
     add(range_of(tile.viscosity.data(), tile.viscosity.size()));
     add(range_of(state.strain_rate.data() + tile.begin / block_size, 1));

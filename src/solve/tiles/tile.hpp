@@ -109,7 +109,7 @@ struct Tiles::Tile {
 
 // What a tile reads, for tiles::Ahead.
 struct Tiles::Reads {
-  std::array<tiles::Ahead::Range, 12> ranges;
+  std::array<tiles::Ahead::Range, 18> ranges;
   std::size_t count = 0;
   std::size_t lines = 0;
 

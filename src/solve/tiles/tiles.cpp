@@ -42,6 +42,26 @@ struct Tiles::Scratch {
   alignas(64) std::array<std::uint8_t, 4 * block_size> near;
 };
 
+// What move_shared() reads besides the tile: it lies with other tiles.
+void Tiles::fetch_owned(const State& state, const Tile& tile) {
+  for (const Index n : tile.owned) {
+    __builtin_prefetch(&state.velocity[at(n)], 1);
+    __builtin_prefetch(&state.inverse_mass[at(n)]);
+  }
+  for (const Vec2* part : tile.part) __builtin_prefetch(part);
+}
+
+// What a tile copies of nodes that lie with others: its own ones are among its Reads.
+void Tiles::fetch_nodes(const State& state, const Tile& tile) {
+  const Index first = tile.own.empty() ? 0 : tile.own.front().node;
+  const Index last = tile.own.empty() ? 0 : tile.own.back().node;
+  for (const tiles::Run& run : tile.nodes) {
+    if (run.node >= first && run.node <= last) continue;
+    __builtin_prefetch(&state.displacement[at(run.node)]);
+    __builtin_prefetch(&state.displacement[at(run.node + run.count - 1)]);
+  }
+}
+
 Tiles::Tiles(Tiles&&) noexcept = default;
 Tiles::~Tiles() = default;
 
@@ -73,6 +93,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
                  std::span<std::uint8_t> stressed, std::span<char> tile_stressed) {
   Tile& tile = tiles_[at(i)];
   const Bulk& bulk = physics.bulk;
+  fetch_owned(state, tile);
   Scratch s;  // not initialised
   const tiles::Kernels& kernels = tiles::kernels();
   const auto nodes_end = 2 * static_cast<std::ptrdiff_t>(tile.count);
@@ -203,6 +224,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
     add(a.ends[3], -f.end1);
   }
 
+  fetch_nodes(state, tiles_[std::min(at(i) + 1, tiles_.size() - 1)]);
   for (std::size_t k = 0; k < tile.shared.size(); ++k) {
     const double* force = s.force.data() + 2 * tile.shared[k];
     tile.partial[k] = {force[0], force[1]};
