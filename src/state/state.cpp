@@ -240,15 +240,17 @@ std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
   return partings;
 }
 
+double corner_kinetic_energy(const State& state, Index corner) {
+  const std::size_t node = at(state.node_of_corner[at(corner)]);
+  if (state.inverse_mass[node] == 0.0) return 0.0;
+  const double whole = 0.5 * dot(state.velocity[node], state.velocity[node]) / state.inverse_mass[node];
+  if (state.node_size[node] == 1) return whole;
+  const Index* corners = state.node_corners.data() + state.node_first[node];
+  return whole * mass_share(state, corner) / mass_share(state, corners, state.node_size[node]);
+}
+
 double face_kinetic_energy(const State& state, Index element) {
-  const auto kinetic = [&](Index corner) {
-    const std::size_t node = at(state.node_of_corner[at(corner)]);
-    if (state.inverse_mass[node] == 0.0) return 0.0;
-    const double whole = 0.5 * dot(state.velocity[node], state.velocity[node]) / state.inverse_mass[node];
-    if (state.node_size[node] == 1) return whole;
-    const Index* corners = state.node_corners.data() + state.node_first[node];
-    return whole * mass_share(state, corner) / mass_share(state, corners, state.node_size[node]);
-  };
+  const auto kinetic = [&](Index corner) { return corner_kinetic_energy(state, corner); };
   const Edge& edge = state.mesh->edges[at(state.cohesive.edge[at(element)])];
   const Index a = 3 * edge.triangle[0], b = 3 * edge.triangle[1];
   return kinetic(a + edge.side[0]) + kinetic(a + (edge.side[0] + 1) % 3) +

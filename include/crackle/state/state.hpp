@@ -258,5 +258,7 @@ std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
 /// Kinetic energy [J/m] of the four corners at the faces of a cohesive element, each with its third of its
 /// triangle's mass: the same however many corners move together as a node. Fixed nodes count nothing.
 double face_kinetic_energy(const State& state, Index element);
+/// The same of one corner.
+double corner_kinetic_energy(const State& state, Index corner);
 
 }  // namespace crackle
