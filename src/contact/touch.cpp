@@ -115,6 +115,7 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
   const double length = side.length;
   const double k_n = m.normal_penalty / length, k_t = m.tangential_penalty / length;
   const double dt = state.time_step;
+  const Vec2 chord = placed[at(s)].end - placed[at(s)].start, own = (1.0 / norm(chord)) * chord;
   SideSlip slip{side.corner};
   for (Index place = 0; place < 3; ++place) {
     const Point point = make_point(state, side, placed[at(s)], place);
@@ -190,10 +191,11 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
       const double slid = p.plastic_slip - plastic, work = w * rubbed(before, friction, slid);
       touches.friction += work;
       if (k_t > 0.0 && overlap > 0.0) {
-        // Over the half of the side that its own points stand for.
+        const double cosine = -dot(along, own), share = std::copysign(2.0 * w / length, cosine);
+        slip.cosine = std::max(slip.cosine, std::abs(cosine));
         slip.target = other.corner;
-        slip.slid += 2.0 * w / length * slid;
-        slip.traction += 2.0 * w / length * friction;
+        slip.slid += share * slid;
+        slip.traction += share * friction;
       }
       slip.work += work;
       if (overlap == 0.0 && !(p.offset > 0.0 && p.depth > 0.0)) continue;  // parted

@@ -72,7 +72,7 @@ std::vector<SlidingEdge> sliding_sides(const State& state, std::span<const SideS
     e.vertex = {corners[at(s.side % 3)], corners[at(next % 3)]};
     e.place = 0.5 * (start + end);
     e.direction = end - start;  // its rock lies to the left: face a
-    e.length = 0.5 * norm(state.reference(next) - state.reference(s.side));
+    e.length = 0.5 * std::max(s.cosine, 1e-6) * norm(state.reference(next) - state.reference(s.side));
     e.slip_rate = state.time_step > 0.0 ? s.slid / state.time_step : 0.0;
     e.slip = (known != nullptr ? known->slip : 0.0) + s.slid;
     e.traction = s.traction;

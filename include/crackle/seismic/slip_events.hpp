@@ -12,10 +12,10 @@
 // The radiated energy is the kinetic-energy window of Lisjak et al. (2013) over all edges that slide, so that
 // magnitudes of slips and of breaking compare.
 //
-// In general contact both faces slide, each for half of what happens: a side's length is half its own, and
-// its slip the mean over it, nothing where it touches nothing. So Σ L d and the moment are those of the
-// contact, and ΣL is the area that was swept; a block that slides by n of its lengths makes slips d that are
-// means over that. Limits: kinetic energy that has left the edges' nodes before the maximum is not counted.
+// In general contact both faces slide, each for half of what happens: a side's length is half its own, as
+// projected on its way, and its slip the mean over it, nothing where it bears nothing. So Σ L d and the
+// moment are those of what bears, and Σ L is the area that was swept. Limits: kinetic energy that has left
+// the edges' nodes before the maximum is not counted.
 //
 // | parameter  | unit | meaning                                       |
 // |------------|------|-----------------------------------------------|

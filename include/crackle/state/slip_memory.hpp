@@ -15,6 +15,8 @@ struct SideSlip {
   double slid = 0.0;      ///< of the target against it, along the side, past sticking: mean over the side [m]
   double traction = 0.0;  ///< friction, mean over the side [Pa]
   double work = 0.0;      ///< dissipated by friction [J/m]
+  double cosine =
+      0.0;  ///< between the side and the way it slides: nearly 0 where only an upright's end touches
 };
 
 /// An edge of a joint, or a side in general contact, that takes part in a slip event under way.
