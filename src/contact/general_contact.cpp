@@ -74,6 +74,7 @@ void GeneralContact::rebuild(const State& state) { search_->rebuild(state); }
 void GeneralContact::update(State& state) {
   released_.clear();
   forces_.clear();
+  slips_.clear();
   Index broken = 0;
   for (const Index element : state.cohesive.active) {
     const CohesiveStatus status = state.cohesive.status[at(element)];
@@ -139,6 +140,7 @@ void GeneralContact::evaluate(State& state, bool first_look, double& taken_over)
   for (const Touches& t : touches) {
     state.contact.points.insert(state.contact.points.end(), t.points.begin(), t.points.end());
     forces_.insert(forces_.end(), t.forces.begin(), t.forces.end());
+    slips_.insert(slips_.end(), t.slips.begin(), t.slips.end());
     state.dissipation.friction += t.friction;
     taken_over += t.taken_over;
   }

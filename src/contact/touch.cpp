@@ -115,6 +115,8 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
   const double length = side.length;
   const double k_n = m.normal_penalty / length, k_t = m.tangential_penalty / length;
   const double dt = state.time_step;
+  const Vec2 chord = placed[at(s)].end - placed[at(s)].start, own = (1.0 / norm(chord)) * chord;
+  SideSlip slip{side.corner};
   for (Index place = 0; place < 3; ++place) {
     const Point point = make_point(state, side, placed[at(s)], place);
     const bool touched =
@@ -186,7 +188,16 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
       const double friction =
           k_t > 0.0 ? coulomb_traction(k_t, p.slip, m.tan_friction * k_n * overlap, p.plastic_slip) : 0.0;
       const double w = weight(place, length);
-      touches.friction += w * rubbed(before, friction, p.plastic_slip - plastic);
+      const double slid = p.plastic_slip - plastic, work = w * rubbed(before, friction, slid);
+      touches.friction += work;
+      if (k_t > 0.0 && overlap > 0.0) {
+        const double cosine = -dot(along, own), share = std::copysign(2.0 * w / length, cosine);
+        slip.cosine = std::max(slip.cosine, std::abs(cosine));
+        slip.target = other.corner;
+        slip.slid += share * slid;
+        slip.traction += share * friction;
+      }
+      slip.work += work;
       if (overlap == 0.0 && !(p.offset > 0.0 && p.depth > 0.0)) continue;  // parted
       touches.points.push_back(p);
       if (taken_over) touches.taken_over += energy(m, length, p);
@@ -202,6 +213,7 @@ void touch(const State& state, const ContactMaterial& m, const FreeSides& sides,
     }
     if (!side.taken_over) touches.friction += std::max(0.0, lost);  // gone out of reach under load
   }
+  if (slip.target >= 0) touches.slips.push_back(slip);
 }
 
 }  // namespace crackle

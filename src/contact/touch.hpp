@@ -15,8 +15,9 @@ namespace crackle {
 struct Touches {
   std::vector<ContactPoint> points;
   std::vector<SideForce> forces;
-  double friction = 0.0;    ///< dissipated by friction, and by contacts lost under load [J/m]
-  double taken_over = 0.0;  ///< stored in points that a released pair handed over now [J/m]
+  std::vector<SideSlip> slips;  ///< of sides with friction
+  double friction = 0.0;        ///< dissipated by friction, and by contacts lost under load [J/m]
+  double taken_over = 0.0;      ///< stored in points that a released pair handed over now [J/m]
 };
 
 /// Points in the order in which the state keeps them.

@@ -9,10 +9,11 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-bool takes_part(const SlipMemory& memory, Index edge) {
+// Of an edge that takes part in an event under way; nullptr: it does not.
+const SlipEdge* part_of(const SlipMemory& memory, Index edge) {
   const auto found = std::lower_bound(memory.edges.begin(), memory.edges.end(), edge,
                                       [](const SlipEdge& s, Index e) { return s.edge < e; });
-  return found != memory.edges.end() && found->edge == edge;
+  return found != memory.edges.end() && found->edge == edge ? &*found : nullptr;
 }
 
 /// Mean of the points' values over the edge, by Simpson's rule.
@@ -50,9 +51,35 @@ std::vector<SlidingEdge> sliding_edges(const State& state) {
     if (state.cohesive.status[at(h.element)] != CohesiveStatus::broken) continue;
     const Index edge = state.cohesive.edge[at(h.element)];
     if (state.mesh->edges[at(edge)].joint < 0) continue;
-    if (h.slid != 0.0 || takes_part(state.slips, edge)) edges.push_back(sliding_edge(state, h));
+    if (h.slid != 0.0 || part_of(state.slips, edge) != nullptr) edges.push_back(sliding_edge(state, h));
   }
   std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.edge < b.edge; });
+  return edges;
+}
+
+std::vector<SlidingEdge> sliding_sides(const State& state, std::span<const SideSlip> slips) {
+  const Index first = state.mesh->edge_count();
+  std::vector<SlidingEdge> edges;
+  for (const SideSlip& s : slips) {
+    const SlipEdge* known = part_of(state.slips, first + s.side);
+    if (s.slid == 0.0 && known == nullptr) continue;
+    const Index next = s.side % 3 == 2 ? s.side - 2 : s.side + 1;
+    const auto& corners = state.mesh->triangles[at(s.side / 3)];
+    const Vec2 start = state.position(s.side), end = state.position(next);
+    SlidingEdge e;
+    e.edge = first + s.side;
+    e.partner = first + s.target;
+    e.vertex = {corners[at(s.side % 3)], corners[at(next % 3)]};
+    e.place = 0.5 * (start + end);
+    e.direction = end - start;  // its rock lies to the left: face a
+    e.length = 0.5 * std::max(s.cosine, 1e-6) * norm(state.reference(next) - state.reference(s.side));
+    e.slip_rate = state.time_step > 0.0 ? s.slid / state.time_step : 0.0;
+    e.slip = (known != nullptr ? known->slip : 0.0) + s.slid;
+    e.traction = s.traction;
+    e.friction_work = s.work;
+    e.kinetic = corner_kinetic_energy(state, s.side) + corner_kinetic_energy(state, next);
+    edges.push_back(e);
+  }
   return edges;
 }
 

@@ -19,6 +19,7 @@ SlipEdge started(const SlidingEdge& e, StepTime clock) {
   SlipEdge s;
   s.edge = s.event = e.edge;
   s.vertex = e.vertex;
+  s.partner = e.partner;
   s.place = e.place;
   s.direction = e.direction;
   s.length = e.length;
@@ -35,6 +36,7 @@ void follow(SlipEdge& s, const SlidingEdge& e, StepTime clock, double rate) {
   s.slip = e.slip;
   s.opening = e.opening;
   s.traction = e.traction;
+  s.partner = e.partner;
   s.friction_energy += e.friction_work;
 }
 
@@ -50,8 +52,8 @@ void merge(SlipMemory& memory, Index a, Index b) {
   std::erase_if(memory.events, [name = gone](const SlipMemory::Event& e) { return e.name == name; });
 }
 
-/// Joins every event that meets another at a vertex.
-void join_at_vertices(SlipMemory& memory) {
+/// Joins every event that meets another at a vertex or touches it.
+void join(SlipMemory& memory) {
   std::map<Index, Index> event_at;  // vertex -> edge's position in memory
   for (std::size_t i = 0; i < memory.edges.size(); ++i) {
     for (const Index v : memory.edges[i].vertex) {
@@ -60,12 +62,19 @@ void join_at_vertices(SlipMemory& memory) {
       merge(memory, memory.edges[static_cast<std::size_t>(found->second)].event, memory.edges[i].event);
     }
   }
+  for (const SlipEdge& s : memory.edges) {
+    if (s.partner < 0) continue;
+    const auto other = std::lower_bound(memory.edges.begin(), memory.edges.end(), s.partner,
+                                        [](const SlipEdge& e, Index number) { return e.edge < number; });
+    if (other != memory.edges.end() && other->edge == s.partner) merge(memory, s.event, other->event);
+  }
 }
 
-/// @return whether an edge started
+/// @return whether an edge started or came to touch another
 bool follow_edges(SlipMemory& memory, std::span<const SlidingEdge> edges, StepTime clock,
                   const SlipRule& rule) {
   std::vector<SlipEdge> fresh;
+  bool met = false;
   auto known = memory.edges.begin();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const SlidingEdge& e = edges[i];
@@ -74,13 +83,14 @@ bool follow_edges(SlipMemory& memory, std::span<const SlidingEdge> edges, StepTi
     }
     while (known != memory.edges.end() && known->edge < e.edge) ++known;
     if (known != memory.edges.end() && known->edge == e.edge) {
+      met = met || known->partner != e.partner;
       follow(*known, e, clock, rule.stop_rate);
     } else if (std::abs(e.slip_rate) >= rule.start_rate) {
       fresh.push_back(started(e, clock));
       follow(fresh.back(), e, clock, rule.stop_rate);
     }
   }
-  if (fresh.empty()) return false;
+  if (fresh.empty()) return met;
   const auto merge_in = [](auto& all, const auto& more, auto less) {
     const auto middle = static_cast<std::ptrdiff_t>(all.size());
     all.insert(all.end(), more.begin(), more.end());
@@ -160,7 +170,7 @@ std::vector<SeismicEvent> take(SlipMemory& memory, const SeismicMedium& medium, 
 
 std::vector<SeismicEvent> track_slip(SlipMemory& memory, std::span<const SlidingEdge> edges, StepTime clock,
                                      const SlipRule& rule, const SeismicMedium& medium) {
-  if (follow_edges(memory, edges, clock, rule)) join_at_vertices(memory);
+  if (follow_edges(memory, edges, clock, rule)) join(memory);
   raise_kinetic(memory, edges);
   std::map<Index, double> last;
   for (const SlipEdge& s : memory.edges) last[s.event] = std::max(last[s.event], s.last);

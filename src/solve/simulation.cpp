@@ -165,12 +165,33 @@ void Simulation::heed_activated() {
   active_known_ = state_.cohesive.active.size();
 }
 
+std::vector<SeismicEvent> Simulation::with_edges_of_mesh(std::vector<SeismicEvent> slips) const {
+  for (SeismicEvent& e : slips) {
+    const Index corner = e.edge - scene_.mesh->edge_count();
+    if (corner >= 0) e.edge = scene_.mesh->triangle_edges[at(corner / 3)][at(corner % 3)];
+  }
+  return slips;
+}
+
 void Simulation::listen_to_slips() {
-  // Quiet for as long as a shear wave takes along three of the longest edges.
-  const double quiet = 3.0 * longest_joint_edge_ / slowest_shear_wave(scene_);
+  std::vector<SlidingEdge> edges;
+  if (longest_joint_edge_ > 0.0) edges = sliding_edges(state_);
+  if (contact_) {
+    const auto sides = sliding_sides(state_, contact_->slips());
+    edges.insert(edges.end(), sides.begin(), sides.end());
+  }
+  if (edges.empty() && state_.slips.edges.empty()) return;
+  // Quiet for as long as a shear wave takes along three of the longest edges, or sides.
+  double longest = longest_joint_edge_;
+  const auto heed_side = [&](const auto& e) {
+    if (e.edge >= scene_.mesh->edge_count()) longest = std::max(longest, 2.0 * e.length);
+  };
+  std::ranges::for_each(edges, heed_side);
+  std::ranges::for_each(state_.slips.edges, heed_side);
+  const double quiet = 3.0 * longest / slowest_shear_wave(scene_);
   const SlipRule rule{scene_.slip_rate, 0.5 * scene_.slip_rate, quiet};
   const auto ended =
-      track_slip(state_.slips, sliding_edges(state_), {state_.time, state_.time_step}, rule, medium());
+      with_edges_of_mesh(track_slip(state_.slips, edges, {state_.time, state_.time_step}, rule, medium()));
   new_events_.insert(new_events_.end(), ended.begin(), ended.end());
 }
 
@@ -217,7 +238,8 @@ void Simulation::advance(double dt, Energies* account) {
     if (!opened.empty()) fluid_->connect(state_, opened);
     stopwatch_.lap(Stopwatch::fluid);
   }
-  if (longest_joint_edge_ > 0.0 && state_.time > 0.0) {  // what slid before was the geostatic stage
+  if ((longest_joint_edge_ > 0.0 || contact_) &&
+      state_.time > 0.0) {  // what slid before was the geostatic stage
     listen_to_slips();
     stopwatch_.lap(Stopwatch::events);
   }

@@ -239,16 +239,22 @@ std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
   return partings;
 }
 
+double corner_mass(const State& state, Index corner) {
+  const std::size_t node = at(state.node_of_corner[at(corner)]);
+  if (state.inverse_mass[node] == 0.0) return 0.0;
+  const Index* of_node = state.node_corners.data() + state.node_first[node];
+  return mass_share(state, corner) / mass_share(state, of_node, state.node_size[node]) / state.inverse_mass[node];
+}
+
+double corner_kinetic_energy(const State& state, Index corner) {
+  const Vec2 v = state.velocity[at(state.node_of_corner[at(corner)])];
+  return 0.5 * corner_mass(state, corner) * dot(v, v);
+}
+
 std::array<double, 4> face_masses(const State& state, Index element) {
   const auto corners = corners_of_edge(state.mesh->edges[at(state.cohesive.edge[at(element)])]);
   std::array<double, 4> masses{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::size_t node = at(state.node_of_corner[at(corners[k])]);
-    if (state.inverse_mass[node] == 0.0) continue;
-    const Index* of_node = state.node_corners.data() + state.node_first[node];
-    masses[k] = mass_share(state, corners[k]) / mass_share(state, of_node, state.node_size[node]) /
-                state.inverse_mass[node];
-  }
+  for (std::size_t k = 0; k < 4; ++k) masses[k] = corner_mass(state, corners[k]);
   return masses;
 }
 

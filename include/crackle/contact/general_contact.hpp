@@ -84,6 +84,8 @@ class GeneralContact {
   Index count(const State& state) const;
   /// Cohesive elements released by the last update(), ascending.
   const std::vector<Index>& released() const { return released_; }
+  /// What the sides that touch something slid in the last step, ascending by side.
+  const std::vector<SideSlip>& slips() const { return slips_; }
   const ContactMaterial& material() const { return material_; }
 
  private:
@@ -95,6 +97,7 @@ class GeneralContact {
   std::unique_ptr<Search> search_;  // free sides and which of them may meet; follows from the state
   std::vector<Index> released_;
   std::vector<SideForce> forces_;
+  std::vector<SideSlip> slips_;
 };
 
 }  // namespace crackle

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From joints that slide to events. An edge takes part in an event from the step at which its slip rate
-// reaches start_rate. Edges that share a vertex are one event; two events that grow together become one.
-// An event ends when none of its edges has slid faster than stop_rate for a time `quiet`.
+// From joints and faces in general contact that slide to events. An edge takes part in an event from the step
+// at which its slip rate reaches start_rate. Edges that share a vertex, or touch, are one event; two events
+// that grow together become one. An event ends when none of its edges has slid faster than stop_rate for a
+// time `quiet`.
 //
 //   slip D = Σ L d / Σ L, d from the start of each edge to the end of the event
 //   stress drop = Σ L (τ_start − τ_end) sgn d / Σ L
 //   dissipated = work of friction;   radiated = max over time of Σ (E_k − E_k at the start of each edge)
 //
 // The radiated energy is the kinetic-energy window of Lisjak et al. (2013) over all edges that slide, so that
-// magnitudes of slips and of breaking compare. Limits: kinetic energy that has left the edges' nodes before
-// the maximum is not counted.
+// magnitudes of slips and of breaking compare.
+//
+// In general contact both faces slide, each for half of what happens: a side's length is half its own, as
+// projected on its way, and its slip the mean over it, nothing where it bears nothing. So Σ L d and the
+// moment are those of what bears, and Σ L is the area that was swept. Limits: kinetic energy that has left
+// the edges' nodes before the maximum is not counted.
 //
 // | parameter  | unit | meaning                                       |
 // |------------|------|-----------------------------------------------|
@@ -35,9 +40,9 @@ struct SlipRule {
   double quiet = 0.0;        ///< [s]
 };
 
-/// An edge of a joint in one step.
+/// An edge of a joint in one step, or a side in general contact.
 struct SlidingEdge {
-  Index edge = -1;              ///< of the mesh
+  Index edge = -1;              ///< number as in SlipEdge
   std::array<Index, 2> vertex;  ///< its ends in the mesh
   Vec2 place, direction;        ///< current; along the edge with face a to its left [m]
   double length = 0.0;          ///< [m]
@@ -47,6 +52,7 @@ struct SlidingEdge {
   double traction = 0.0;        ///< shear, that drives positive slip [Pa]
   double friction_work = 0.0;   ///< dissipated in this step [J/m]
   double kinetic = 0.0;         ///< of its nodes [J/m]
+  Index partner = -1;           ///< number, like edge, of what it touches; -1: nothing else
 };
 
 /// The clock of a step.
@@ -64,8 +70,11 @@ std::vector<SeismicEvent> track_slip(SlipMemory& memory, std::span<const Sliding
                                      const SlipRule& rule, const SeismicMedium& medium);
 
 /// What track_slip() has to know of the last step: the edges of joints whose faces slid, and those that take
-/// part in an event under way. Faces that have moved past one another (general contact) are left out.
+/// part in an event under way. Faces that have moved past one another are sides in general contact:
 std::vector<SlidingEdge> sliding_edges(const State& state);
+/// the same of those, each over half its length, for the other half is what it touches. @param slips
+/// ascending
+std::vector<SlidingEdge> sliding_sides(const State& state, std::span<const SideSlip> slips);
 
 /// Ends every event under way, as a run does.
 std::vector<SeismicEvent> finish_slip(SlipMemory& memory, const SeismicMedium& medium);

@@ -90,7 +90,7 @@ struct Scene : RockMass {
   Pump pump;
   bool fast_forward = false;  ///< the elastic ramp by linear solves, where it holds
   double thickness = 1.0;     ///< for magnitudes [m]
-  double slip_rate = 1e-2;    ///< at which the slip of a joint is an event [m/s]
+  double slip_rate = 1e-2;    ///< at which slip of a joint or in general contact is an event [m/s]
   bool breaks() const { return law != nullptr || damage.law != nullptr; }
   /// Of a layer by its number, as in layer_of_triangle.
   const RockMass& rock(std::size_t layer) const {
@@ -198,12 +198,12 @@ class Simulation {
   /// The same, with the energies at the time before the step. @throws NumericalError when anything
   /// is not finite
   Energies step_and_account(double dt);
-  /// Events of the last step: what broke, and slips of joints that ended.
+  /// Events of the last step: what broke, and slips of joints and of faces in general contact that ended.
   const std::vector<SeismicEvent>& new_events() const { return new_events_; }
   /// Forces and displacements of Scene::loads, one each, since the last call.
   std::vector<LoadRecord> take_loads();
-  /// Ends the slips of joints that are under way, at the end of a run.
-  std::vector<SeismicEvent> end_slips() { return finish_slip(state_.slips, medium()); }
+  /// Ends the slips that are under way, at the end of a run.
+  std::vector<SeismicEvent> end_slips() { return with_edges_of_mesh(finish_slip(state_.slips, medium())); }
 
   /// Largest unbalanced force over the largest corner force: how far from static equilibrium.
   double imbalance();
@@ -222,6 +222,7 @@ class Simulation {
   void heed_activated();
   Tiles::Physics physics() const { return {bulk_, cohesive()}; }
   void listen_to_slips();
+  std::vector<SeismicEvent> with_edges_of_mesh(std::vector<SeismicEvent> slips) const;
   static double longest_joint_edge(const Mesh& mesh);
   SeismicMedium medium() const;
   void cut_cracks();

@@ -174,6 +174,7 @@ void members(SlipEdge& e, V&& v) {
   v("edge", e.edge);
   v("event", e.event);
   v("vertex", e.vertex);
+  v("partner", e.partner);
   v("place", e.place);
   v("direction", e.direction);
   v("length", e.length);

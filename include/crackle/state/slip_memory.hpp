@@ -8,11 +8,23 @@
 
 namespace crackle {
 
-/// An edge of a joint that takes part in a slip event under way.
+/// What a free side in general contact slid in a step, as far as it touches something.
+struct SideSlip {
+  Index side = -1;        ///< 3 t + i
+  Index target = -1;      ///< a side that it touches
+  double slid = 0.0;      ///< of the target against it, along the side, past sticking: mean over the side [m]
+  double traction = 0.0;  ///< friction, mean over the side [Pa]
+  double work = 0.0;      ///< dissipated by friction [J/m]
+  double cosine =
+      0.0;  ///< between the side and the way it slides: nearly 0 where only an upright's end touches
+};
+
+/// An edge of a joint, or a side in general contact, that takes part in a slip event under way.
 struct SlipEdge {
-  Index edge = -1;                              ///< of the mesh
+  Index edge = -1;                              ///< of the mesh; of a side: edges of the mesh + (3 t + i)
   Index event = -1;                             ///< that it takes part in: the event's first edge names it
   std::array<Index, 2> vertex{-1, -1};          ///< its ends in the mesh
+  Index partner = -1;                           ///< number, like edge, of what it touches; -1: nothing else
   Vec2 place, direction;                        ///< middle and direction when it started, current [m]
   double length = 0.0;                          ///< [m]
   double start = 0.0, last = 0.0;               ///< first and last time at which it slid [s]

@@ -61,7 +61,7 @@ residual_friction_angle = "10 deg"
 
   const Outcome summary = crackle({"catalog", out});
   ASSERT_EQ(summary.code, 0) << summary.err;
-  EXPECT_THAT(summary.out, HasSubstr("slip of joints: " + std::to_string(slips) + ","));
+  EXPECT_THAT(summary.out, HasSubstr("slips: " + std::to_string(slips) + ","));
   for (const char* figure : {"/events.png", "/catalog.png"})
     EXPECT_TRUE(std::filesystem::exists(out + figure));
 

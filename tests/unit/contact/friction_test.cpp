@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "../../result.hpp"
+#include "crackle/seismic/slip_events.hpp"
 #include "world.hpp"
 
 namespace crackle::test {
@@ -60,6 +61,39 @@ TEST(ContactFriction, SlidesDownASteepSlope) {
   std::printf("  a = %.5f m/s2, exact %.5f: off by %.2e\n", a, exact, a / exact - 1.0);
   check.result(a / exact - 1.0);
   EXPECT_NEAR(a / exact, 1.0, 0.01);
+}
+
+// A block that is thrown over a base cut into sides a third as long as its way: one event, which has all of
+// the friction, the block's length times its way, and what bears the block as stress drop at rest.
+TEST(ContactFriction, SlidingIsOneSlipEvent) {
+  World world = block_on_base(0.1, 37);
+  const SeismicMedium medium{{1e8, 1e8}};
+  const SlipRule rule{1e-3, 5e-4, 5e-3};
+  world.throw_body(0, {0.5, 0.0});
+  const double from = world.centre(0).x, friction = world.state.dissipation.friction;
+  std::vector<SeismicEvent> events;
+  for (const double end = world.state.time + 0.6; world.state.time < end;) {
+    world.advance();
+    const auto ended = track_slip(world.state.slips, sliding_sides(world.state, world.contact().slips()),
+                                  {world.state.time, world.dt}, rule, medium);
+    events.insert(events.end(), ended.begin(), ended.end());
+  }
+  EXPECT_TRUE(world.state.slips.edges.empty()) << "it has come to rest";
+  ASSERT_FALSE(events.empty());
+  const SeismicEvent& e = *std::ranges::max_element(events, {}, &SeismicEvent::friction_energy);
+  double small = 0.0;
+  for (const SeismicEvent& other : events) small += other.friction_energy;
+  const double way = world.centre(0).x - from, rubbed = world.state.dissipation.friction - friction;
+  std::printf(
+      "  event of %d sides, %.4f s: slip times length %.6f of %.6f m2, friction %.5f (all %zu events %.5f) "
+      "of %.5f J/m, stress drop %.1f Pa\n",
+      e.edges, e.duration, e.length * std::abs(e.slip), 0.2 * way, e.friction_energy, events.size(), small,
+      rubbed, e.stress_drop);
+  EXPECT_GT(way, 0.1);
+  EXPECT_NEAR(e.length * std::abs(e.slip) / (0.2 * way), 1.0, 0.02) << "it rocks: some of it lifts";
+  EXPECT_NEAR(e.friction_energy / rubbed, 1.0, 0.01);
+  EXPECT_NEAR(scalar_moment(e.moment) / (1e8 * e.length * std::abs(e.slip)), 1.0, 1e-3);
+  EXPECT_EQ(e.kind, EventKind::slip);
 }
 
 struct Slide {
