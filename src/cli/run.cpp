@@ -88,6 +88,7 @@ class Run {
     folder_.set_loads(std::move(loads));
     say(fmt::format("crackle {}: {}", version, scene_.title.empty() ? scene_.file : scene_.title));
     if (options_.resume.empty() || !resume()) begin();
+    heed_interrupt();
     Progress progress(scene_.run.end_time, options_.quiet);
     guards_.emplace(*simulation_, memory_.guards);
     if (options_.allow_unstable) say("--allow-unstable: what the guards find does not stop this run");

@@ -9,10 +9,6 @@ namespace {
 volatile std::sig_atomic_t stop = 0;
 volatile std::sig_atomic_t checkpoint = 0;
 void on_stop(int) { stop = 1; }
-void on_interrupt(int) {
-  stop = 1;
-  std::signal(SIGINT, SIG_DFL);  // whoever does not want to wait asks twice
-}
 void on_checkpoint(int) { checkpoint = 1; }
 
 }  // namespace
@@ -21,10 +17,11 @@ void heed_signals() {
   std::signal(SIGUSR1, on_checkpoint);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_stop);
   if (std::signal(SIGHUP, on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
+
+void heed_interrupt() { std::signal(SIGINT, on_stop); }
 
 bool stop_requested() { return stop != 0; }
 

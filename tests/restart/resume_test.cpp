@@ -97,7 +97,7 @@ TEST_F(Resume, StoppedBeforeTheFirstStep) {
   for (const char* insertion : {"all", "on_demand"}) {
     const std::vector<std::string> how{"--set", std::string("cohesive.insertion=") + insertion,
                                        "--set", "run.fast_forward=true",
-                                       "--set", "run.end_time=0.2 ms"};
+                                       "--set", "run.end_time=0.6 ms"};
     const std::string whole = std::string("whole_") + insertion, parts = std::string("parts_") + insertion;
     ASSERT_EQ(run(whole, how).code, 0);
     Process process(arguments(parts, how), path("process"));
