@@ -34,7 +34,7 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
 
 void add_threads(CLI::App& command, int& threads) {
   command.add_option("-j,--threads", threads, "Threads (default: all cores)")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1024))
       ->type_name("N");
 }
 
@@ -234,7 +234,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "crackle: {}\n", error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "crackle: out of memory: take a coarser mesh, or a machine with more\n");
+    fmt::print(stderr, "crackle: out of memory: the mesh or a file is too large for this machine\n");
     return static_cast<int>(crackle::ExitCode::bad_case);
   } catch (const std::exception& error) {
     fmt::print(stderr, "crackle: {}\n", error.what());

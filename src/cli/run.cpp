@@ -85,13 +85,12 @@ class Run {
 
   /// @return exit code
   int go() {
-    heed_requests();
     std::vector<std::string> loads;
     for (const Case::Load& load : scene_.loads) loads.push_back(load.name);
     folder_.set_loads(std::move(loads));
     say(fmt::format("crackle {}: {}", version, scene_.title.empty() ? scene_.file : scene_.title));
     if (options_.resume.empty() || !resume()) begin();
-    heed_stops();
+    heed_interrupt();
     Progress progress(scene_.run.end_time, options_.quiet);
     guards_.emplace(*simulation_, memory_.guards);
     if (options_.allow_unstable) say("--allow-unstable: what the guards find does not stop this run");
@@ -406,6 +405,7 @@ int resume_command(const RunOptions& options) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
+  heed_signals();
   if (!options.resume.empty()) return resume_command(options);
   const Case scene = load_case(options.case_file, options.overrides, options.seed);
   require_memory(choose_regime(scene).scene);

@@ -153,11 +153,10 @@ class FieldTimeRun {
 
   /// @return exit code
   int go() {
-    heed_requests();
     folder_.set_field_time();
     say(fmt::format("crackle {}: {}", version, scene_.title.empty() ? scene_.file : scene_.title));
     begin();
-    heed_stops();
+    heed_interrupt();
     Progress progress(scene_.run.end_time, options_.quiet);
     try {
       while (!at_end() && !stop_requested()) {

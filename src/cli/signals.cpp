@@ -13,17 +13,15 @@ void on_checkpoint(int) { checkpoint = 1; }
 
 }  // namespace
 
-void heed_requests() {
+void heed_signals() {
   std::signal(SIGUSR1, on_checkpoint);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-}
-
-void heed_stops() {
-  std::signal(SIGINT, on_stop);
   std::signal(SIGTERM, on_stop);
   if (std::signal(SIGHUP, on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
+
+void heed_interrupt() { std::signal(SIGINT, on_stop); }
 
 bool stop_requested() { return stop != 0; }
 

@@ -74,7 +74,7 @@ void rename_finished(const std::string& path) {
   throw_file_error(path, "write", reason);
 }
 
-std::string read_whole_file(const std::string& path) {
+std::string read_whole_file(const std::string& path, std::size_t most) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
   if (stream == nullptr) throw_file_error(path, "read", errno);
   std::string text;
@@ -83,6 +83,8 @@ std::string read_whole_file(const std::string& path) {
     errno = 0;
     const std::size_t count = std::fread(block, 1, sizeof block, stream.get());
     text.append(block, count);
+    if (text.size() > most)
+      throw CaseError(path + ": too large to be read (over " + std::to_string(most >> 20) + " MiB)");
     if (count < sizeof block) break;
   }
   if (std::ferror(stream.get()) != 0) throw_file_error(path, "read", errno != 0 ? errno : EIO);

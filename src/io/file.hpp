@@ -22,8 +22,11 @@ void write_durable_file(const std::string& path, std::string_view text);
 /// Renames "<path>.tmp" to path. @throws CaseError
 void rename_finished(const std::string& path);
 
-/// The content of a file. @throws CaseError
-std::string read_whole_file(const std::string& path);
+/// Tables that people bring, at most [bytes].
+inline constexpr std::size_t largest_table = std::size_t{1} << 30;
+
+/// The content of a file. @param most its size, at most [bytes] @throws CaseError
+std::string read_whole_file(const std::string& path, std::size_t most = std::string::npos);
 
 /// A text file that grows; each append reaches the operating system before it returns.
 class AppendedFile {

@@ -101,7 +101,7 @@ class Reader {
 }  // namespace
 
 std::vector<Joint> read_joints_csv(const std::string& path, Index set) {
-  const std::string text = read_whole_file(path);
+  const std::string text = read_whole_file(path, largest_table);
   return Reader(path).read(text, set);
 }
 

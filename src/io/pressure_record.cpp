@@ -103,7 +103,7 @@ class RecordReader {
  public:
   RecordReader(std::string path, const RecordColumns& columns)
       : path_(std::move(path)),
-        text_(read_whole_file(path_)),
+        text_(read_whole_file(path_, largest_table)),
         chosen_{columns.time, columns.pressure, columns.rate} {}
 
   PressureRecord read() {

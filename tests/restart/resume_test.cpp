@@ -92,6 +92,44 @@ TEST_F(Resume, LeavesTheSameBytesWithSmearedDamage) {
   expect_same_results(path("parts"), path("whole"));
 }
 
+// While it still meshes, settles or climbs the ramp: at the first instant at which there is a run.
+TEST_F(Resume, StoppedBeforeTheFirstStep) {
+  for (const char* insertion : {"all", "on_demand"}) {
+    const std::vector<std::string> how{"--set", std::string("cohesive.insertion=") + insertion,
+                                       "--set", "run.fast_forward=true",
+                                       "--set", "run.end_time=0.6 ms"};
+    const std::string whole = std::string("whole_") + insertion, parts = std::string("parts_") + insertion;
+    ASSERT_EQ(run(whole, how).code, 0);
+    Process process(arguments(parts, how), path("process"));
+    ASSERT_TRUE(wait_for(path(parts + "/run.log"), process));
+    process.signal(SIGTERM);
+    EXPECT_EQ(process.wait().code, 75);
+    EXPECT_EQ(resume(parts).code, 0);
+    expect_same_results(path(parts), path(whole));
+    report_faults("SIGTERM before the first step; resumed", 1, Left::survived);
+  }
+}
+
+// A specimen under a load, with a notch: no wellbore, no fluid.
+TEST_F(Resume, LeavesTheSameBytesOfALoadedNotchedBeam) {
+  for (const std::string variant : {"smoke", "smoke_damage"}) {
+    const auto arguments = [&](const std::string& folder) {
+      return std::vector<std::string>{
+          "run",       std::string(CRACKLE_SOURCE_DIR) + "/cases/three_point_bending/" + variant + ".toml",
+          "-q",        "-j",
+          "1",         "-o",
+          path(folder)};
+    };
+    ASSERT_EQ(Process(arguments("whole_" + variant), path("process")).wait().code, 0);
+    Process process(arguments("parts_" + variant), path("process"));
+    EXPECT_EQ(interrupted(process, "parts_" + variant, 2).code, 75);
+    EXPECT_EQ(interrupted_resume("parts_" + variant, 4, "2").code, 75);
+    EXPECT_EQ(resume("parts_" + variant).code, 0);
+    expect_same_results(path("parts_" + variant), path("whole_" + variant));
+    report_faults("SIGTERM while it breaks or grows; resumed", 2, Left::survived);
+  }
+}
+
 TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
   const std::vector<std::string> on_demand{"--set", "cohesive.insertion=on_demand"};
   ASSERT_EQ(run("whole", on_demand).code, 0);
@@ -126,6 +164,7 @@ interface_fracture_energy_mode2 = "20 J/m2"
     EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 2) << "it breaks already";
     EXPECT_EQ(resume(parts, "2").code, 0);
     expect_same_results(path(parts), path(whole));
+    report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
   }
 }
 
