@@ -222,8 +222,8 @@ void Simulation::relax() {
   const int most = 200000;
   const bool pressed = fluid_ && scene_.initial_pressure != 0.0 &&
                        scene_.cracks.size() + scene_.damage.cut.size() > scene_.dry_cracks.size();
-  // A crack has no volume yet to hold fluid by its mass. Pressed at once it would overshoot and might grow: in some
-  // runs of a wave along it.
+  // A crack has no volume yet to hold fluid by its mass. Pressed at once it would overshoot and might grow:
+  // in some runs of a wave along it.
   const int rise = pressed ? 40 * static_cast<int>(scene_.cracks.size() + scene_.damage.cut.size()) : 0;
   for (int i = 0; i < most; ++i) {
     if (i <= rise && pressed) fluid_->hold(scene_.initial_pressure * i / rise);

@@ -243,7 +243,8 @@ double corner_mass(const State& state, Index corner) {
   const std::size_t node = at(state.node_of_corner[at(corner)]);
   if (state.inverse_mass[node] == 0.0) return 0.0;
   const Index* of_node = state.node_corners.data() + state.node_first[node];
-  return mass_share(state, corner) / mass_share(state, of_node, state.node_size[node]) / state.inverse_mass[node];
+  return mass_share(state, corner) / mass_share(state, of_node, state.node_size[node]) /
+         state.inverse_mass[node];
 }
 
 double corner_kinetic_energy(const State& state, Index corner) {

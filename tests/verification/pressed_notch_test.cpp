@@ -3,8 +3,8 @@
 // A notch in unbounded rock under the pressure of a soft fluid, which a random mesh lets grow on no straight
 // path: p = K_Ic/√(πa) (Griffith 1921). The edges at its tips have their elements from the start: triangles
 // would see the singular stress there late, by 30 % of the pressure. The geostatic stage, which ends just
-// below that pressure, leaves it whole. The fluid is in the cohesive zone (18 mm) too, as in a longer notch: below
-// Griffith's pressure.
+// below that pressure, leaves it whole. The fluid is in the cohesive zone (18 mm) too, as in a longer notch:
+// below Griffith's pressure.
 #include <gtest/gtest.h>
 
 #include "../granite.hpp"

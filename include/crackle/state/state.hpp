@@ -280,8 +280,8 @@ struct Parting {
 std::vector<Parting> insert_elements(State& state, std::span<const Index> edges,
                                      std::span<const std::uint16_t> material);
 
-/// Mass [kg/m] of a corner, a third of its triangle's: the same however many corners move together as a node. 0 where
-/// the node is fixed.
+/// Mass [kg/m] of a corner, a third of its triangle's: the same however many corners move together as a node.
+/// 0 where the node is fixed.
 double corner_mass(const State& state, Index corner);
 /// Kinetic energy [J/m] of it.
 double corner_kinetic_energy(const State& state, Index corner);
