@@ -83,6 +83,7 @@ struct Scene : RockMass {
   bool joints_edge_by_edge =
       false;  ///< the fluid enters a joint's edges as they open; else a whole joint at once
   std::optional<CompressibleFluid> fluid;
+  std::optional<FractureFluid> flow;  ///< pressure falls along fractures; none: one pressure in each cavity
   bool wets_damaged = false;      ///< the fluid enters elements that have begun to open; else broken ones
   double initial_pressure = 0.0;  ///< of the fluid, above pore_pressure [Pa]
   double pore_pressure = 0.0;     ///< of the formation: only what is told of pressures has it added [Pa]
