@@ -372,12 +372,13 @@ void ViscousFlow::advance(State& state, double dt, double injected) {
     FlowCell& cell = f.cells[c];
     const double pumped = inflow[c] * fluid_.density;
     const double work = pumped * 0.5 * (fluid_.enthalpy(cell.pressure) + fluid_.enthalpy(pressure_[c]));
-    lost += work + held_energy(cell.mass, volume_[c]);
+    const double middle = 0.5 * (cell.volume + volume_[c]);
+    lost += work + held_energy(cell.mass, middle);
     well.work += work;
     cell.mass += gained[c] * fluid_.density;
     cell.pressure = pressure_[c];
     cell.volume = volume_[c];
-    lost -= held_energy(cell.mass, cell.volume);
+    lost -= held_energy(cell.mass, middle);
   }
   state.dissipation.viscous += lost;
   move(state, dt);

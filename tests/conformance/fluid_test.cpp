@@ -57,6 +57,32 @@ Index edge_near(const Mesh& mesh, Vec2 point) {
   return best;
 }
 
+// Interior edges from the wall outwards, as nearly in a direction as there are, to a distance.
+std::vector<Index> outward(const Mesh& mesh, Vec2 direction, double far) {
+  Index here = -1;
+  for (const Index e : granite::edges_of_kind(mesh, EdgeKind::wellbore)) {
+    for (const Index v : mesh.edges[at(e)].vertex) {
+      if (here < 0 || dot(mesh.vertices[at(v)] - mesh.vertices[at(here)], direction) > 0.0) here = v;
+    }
+  }
+  std::vector<Index> path;
+  while (dot(mesh.vertices[at(here)], direction) < far) {
+    Index best = -1, end = -1;
+    double most = 0.0;
+    for (Index e = 0; e < mesh.edge_count(); ++e) {
+      const auto& v = mesh.edges[at(e)].vertex;
+      if ((v[0] != here && v[1] != here) || mesh.edges[at(e)].kind != EdgeKind::interior) continue;
+      const Index other = v[0] == here ? v[1] : v[0];
+      const Vec2 way = mesh.vertices[at(other)] - mesh.vertices[at(here)];
+      if (dot(way, direction) / norm(way) > most)
+        most = dot(way, direction) / norm(way), best = e, end = other;
+    }
+    path.push_back(best);
+    here = end;
+  }
+  return path;
+}
+
 // Pumped until the wall has broken and the fluid has gone into fractures.
 TEST_P(FluidConformance, InjectedIsStoredWhileTheRockBreaks) {
   const double rate = 0.1;
@@ -156,14 +182,8 @@ TEST(Fluid, FlowIsTheCavityWithoutViscosity) {
     scene.cohesive.tensile_strength *= 100.0;
     scene.cohesive.cohesion *= 100.0;
     for (const double side : {1.0, -1.0}) {  // a notch on either side of the wellbore
-      for (Index e = 0; e < scene.mesh->edge_count(); ++e) {
-        const auto& v = scene.mesh->edges[at(e)].vertex;
-        const Vec2 a = scene.mesh->vertices[at(v[0])], b = scene.mesh->vertices[at(v[1])];
-        const bool along = std::abs(a.y) < 1e-9 && std::abs(b.y) < 1e-9 && side * a.x > 0.0;
-        if (along && std::max(std::abs(a.x), std::abs(b.x)) < 0.14 &&
-            scene.mesh->edges[at(e)].kind == EdgeKind::interior)
-          scene.cracks.push_back(e);
-      }
+      const auto notch = outward(*scene.mesh, {side, 0.0}, 0.14);
+      scene.cracks.insert(scene.cracks.end(), notch.begin(), notch.end());
     }
     std::ranges::sort(scene.cracks);
     if (viscosity > 0.0) scene.flow = FractureFluid{.viscosity = viscosity, .cavitation_pressure = 0.0};
