@@ -372,13 +372,16 @@ void ViscousFlow::advance(State& state, double dt, double injected) {
     FlowCell& cell = f.cells[c];
     const double pumped = inflow[c] * fluid_.density;
     const double work = pumped * 0.5 * (fluid_.enthalpy(cell.pressure) + fluid_.enthalpy(pressure_[c]));
-    const double middle = 0.5 * (cell.volume + volume_[c]);
-    lost += work + held_energy(cell.mass, middle);
+    // The rock's leapfrog takes the mean of the pressures that push before and after a move as the work on
+    // it: this step's pressure was not yet known when the one before was booked.
+    lost += work + held_energy(cell.mass, cell.volume);
+    lost -= 0.5 * (push_[c] + pressure_[c]) * (volume_[c] - cell.volume);
+    lost -= 0.5 * (push_[c] - cell.pressure) * (start_[c] - cell.volume);
     well.work += work;
     cell.mass += gained[c] * fluid_.density;
     cell.pressure = pressure_[c];
     cell.volume = volume_[c];
-    lost -= held_energy(cell.mass, middle);
+    lost -= held_energy(cell.mass, cell.volume);
   }
   state.dissipation.viscous += lost;
   move(state, dt);
