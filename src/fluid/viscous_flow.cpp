@@ -137,7 +137,9 @@ void ViscousFlow::add_polygons(const State& state) {
     }
     polygons_.push_back(std::move(p));
   }
-  for (auto& [vertex, round] : at_vertex) {
+  for (auto& entry : at_vertex) {
+    const Index vertex = entry.first;
+    std::vector<Index>& round = entry.second;
     const auto from = before.find(vertex), to = wall.find(vertex);
     const bool walled = from != before.end() && to != wall.end();
     double first = 0.0;
