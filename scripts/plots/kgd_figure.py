@@ -77,7 +77,7 @@ def main():
         time = history["time_s"][keep]
         pressure, opening, length, name = reference(case, time)
         net = history["pressure_Pa"][keep] - case["rock"]["pore_pressure"] + case["stress"]["yy"]
-        middle = 0.5 * (history["broken_length_m"] + history["damaged_length_m"])[keep]
+        middle = history["half_length_m"][keep]
         late = time > time[-1] / 3.0
         print(name)
         for ax, ours, theirs, label, factor in (

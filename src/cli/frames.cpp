@@ -114,7 +114,8 @@ FractureFrame fracture_frame(const Simulation& simulation) {
     const bool unbonded =
         h.fracture_energy == 0.0 && state.mesh->edges[at(state.cohesive.edge[i])].joint >= 0;
     mode.add(is_broken && !unbonded ? static_cast<double>(failure_mode(share)) : 0.0);
-    pressure.add(cavity >= 0 ? simulation.scene().pore_pressure + state.fluid.cavities[at(cavity)].pressure
+    pressure.add(cavity >= 0 ? simulation.scene().pore_pressure +
+                                   simulation.fluid()->pressure(state, state.cohesive.edge[i])
                              : 0.0);
     broken.add(is_broken ? 1.0 : 0.0);
   }

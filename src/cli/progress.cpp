@@ -62,9 +62,12 @@ void Progress::print(const Now& now, bool last) {
   const std::string left = last           ? fmt::format("took {}", duration(wall))
                            : done > 0.005 ? fmt::format("{} left", duration(wall * (1.0 - share) / done))
                                           : std::string("...");
+  const bool short_run = end_time_ < 1.0;
+  const double unit = short_run ? 1e-3 : 1.0;
   const std::string text =
-      fmt::format("{:5.1f} %  t = {:.3f} of {:.3f} ms  step {}  {:.2f} MPa  {} broken  {}", 100.0 * share,
-                  1e3 * now.time, 1e3 * end_time_, now.step, 1e-6 * now.pressure, now.broken, left);
+      fmt::format("{:5.1f} %  t = {:.3f} of {:.3f} {}  step {}  {:.2f} MPa  {} broken  {}", 100.0 * share,
+                  now.time / unit, end_time_ / unit, short_run ? "ms" : "s", now.step, 1e-6 * now.pressure,
+                  now.broken, left);
   if (!terminal_) {
     print_line(text);
     return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -103,6 +105,25 @@ void set_loads(const Case& scene, Scene& s) {
   }
 }
 
+// Pressure that falls along the fractures, where it is asked for; "auto" is uniform in steps.
+void set_flow(const Case& scene, Scene& s) {
+  const Case::Fluid& fluid = scene.fluid;
+  if (fluid.flow != "viscous" && fluid.flow != "turbulent") return;
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) throw CaseError(scene.file, 0, 0, fmt::format("fluid.flow = \"{}\": {}", fluid.flow, what));
+  };
+  require(fluid.viscosity > 0.0, "it needs a fluid.viscosity above 0");
+  require(scene.cohesive.insertion != "none", "it needs fractures between triangles, not smeared damage");
+  FractureFluid law;
+  law.viscosity = fluid.viscosity;
+  law.reference_density = fluid.flow == "turbulent" ? fluid.density : 0.0;
+  law.cavitation_pressure = std::min(0.0, s.initial_pressure);  // that of dry fractures
+  if (fluid.cavitation_pressure) law.cavitation_pressure = *fluid.cavitation_pressure - s.pore_pressure;
+  require(law.cavitation_pressure <= s.initial_pressure,
+          "fluid.cavitation_pressure is above fluid.initial_pressure");
+  s.flow = law;
+}
+
 }  // namespace
 
 PlaneStiffness rock_stiffness(const Case::Rock& rock) {
@@ -180,6 +201,7 @@ Scene make_scene(const Case& scene, std::shared_ptr<const Mesh> excavated) {
     s.initial_pressure = scene.fluid.initial_pressure - s.pore_pressure;
     s.fluid = CompressibleFluid{scene.fluid.bulk_modulus, scene.fluid.density, s.initial_pressure};
     s.wets_damaged = scene.fluid.wets == "damaged";
+    set_flow(scene, s);
     std::vector<PumpStage> stages;
     for (const auto& stage : scene.fluid.pump) stages.push_back({stage.from, stage.to, stage.rate});
     s.pump = Pump(std::move(stages));

@@ -78,6 +78,7 @@ void Fluid::rebuild(const State& state) {
     }
   }
   measure(state);
+  if (flow_) flow_->rebuild(state);
 }
 
 void Fluid::measure(const State& state) {
@@ -105,6 +106,18 @@ void Fluid::measure(const State& state) {
   for (const Wet& w : wet_) {
     compliance_[at(w.cavity)] += dot(w.gradient, w.gradient) * state.inverse_mass[at(w.node)];
   }
+}
+
+void Fluid::flow(State& state, FlowChoice choice) {
+  flow_.emplace(fluid_, std::move(choice));
+  const bool begun = !state.fluid.cells.empty();
+  flow_->take_up(state);
+  if (!begun) flow_->fill(state);
+}
+
+double Fluid::pressure(const State& state, Index edge) const {
+  if (flow_) return flow_->pressure(state, edge);
+  return state.fluid.cavities[at(state.fluid.cavity_of_edge[at(edge)])].pressure;
 }
 
 Index Fluid::fill(State& state, std::span<const Index> edges, double pressure) {
@@ -204,7 +217,7 @@ void Fluid::connect_triangles(State& state, std::span<const Index> damaged) {
 void Fluid::wet(State& state, Reached reached) {
   if (reached.edges.empty() && reached.triangles.empty()) return;
   const Mesh& mesh = *state.mesh;
-  const Spread before = before_spread(state);
+  const Spread before = flow_ ? Spread{} : before_spread(state);
   for (std::size_t e = 0, t = 0; e < reached.edges.size() || t < reached.triangles.size();) {
     if (e < reached.edges.size()) {
       const Index edge = reached.edges[e++];
@@ -222,6 +235,11 @@ void Fluid::wet(State& state, Reached reached) {
         if (mesh.edges[at(edges_of_vertex_[at(k)])].kind == EdgeKind::outer) leaks_ = true;
       }
     }
+  }
+  if (flow_) {  // empty cells, which the flow will fill
+    flow_->take_up(state);
+    loops_ = wetted_loops(state, leaks_);
+    return;
   }
   spread(state, before);
 }
@@ -315,6 +333,7 @@ double Fluid::measured_power(const State& state) const {
 
 void Fluid::advance(State& state, double dt) {
   if (wet_.empty()) return;
+  if (flow_) return flow_->advance(state, dt, pump_.volume(state.time, state.time + dt));
   FluidState& f = state.fluid;
   measure(state);
   const double injected = pump_.volume(state.time, state.time + dt);
@@ -362,6 +381,7 @@ void Fluid::advance(State& state, double dt) {
 }
 
 double Fluid::energy(const State& state) const {
+  if (flow_) return flow_->energy(state);
   double sum = 0.0;
   for (const Cavity& c : state.fluid.cavities) sum += fluid_.energy(c.mass, c.volume, c.pressure);
   return sum;
@@ -381,7 +401,9 @@ double Fluid::wetted_length(const State& state) const {
 
 std::vector<Fluid::CornerLoad> Fluid::corner_loads(const State& state) const {
   std::vector<CornerLoad> loads;
-  for (const Loop& loop : loops_) {
+  if (flow_) flow_->for_each_load(state, [&](Index corner, Vec2 f) { loads.push_back({corner, f}); });
+  for (std::size_t l = 0; l < (flow_ ? 0 : loops_.size()); ++l) {
+    const Loop& loop = loops_[l];
     const double p = state.fluid.cavities[at(loop.cavity)].pressure;
     const auto& c = loop.corners;
     for (std::size_t k = 0; k < c.size(); ++k) {

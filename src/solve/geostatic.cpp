@@ -13,6 +13,7 @@
 #include "crackle/core/parallel.hpp"
 #include "crackle/solve/equilibrium.hpp"
 #include "crackle/solve/simulation.hpp"
+#include "sparse_solver.hpp"
 
 namespace crackle {
 namespace {
@@ -146,6 +147,7 @@ Energies Simulation::ramp_to(double time) {
   fluid_->rebuild(state_);
   well.volume = fluid_->volume(0);
   well.pressure = scene_.fluid->pressure(well.mass, well.volume);
+  if (!state_.fluid.cells.empty()) state_.fluid.cells.front() = {-1, well.mass, well.pressure, well.volume};
   state_.time = time;
   // The rock is in motion from the first instant: the pump's start gave it that.
   const double kinetic = kinetic_energy(state_.velocity);
@@ -177,6 +179,7 @@ void Simulation::settle() {
   if (scene_.absorbing_boundary || loads_) bear_geostatic_loads(std::move(forces));
   tiles_.emplace(state_, physics());
   if (geostatic_slips_ > 0 || !scene_.cracks.empty() || !scene_.damage.cut.empty()) relax();
+  if (fluid_ && scene_.flow) fluid_->flow(state_, {*scene_.flow, sparse_solver()});
   state_.dissipation = {};
   // The residual is not measured against less energy than strains of 3e-7 everywhere hold: while the
   // first wave leaves the wellbore everything is smaller than one step of the pump.

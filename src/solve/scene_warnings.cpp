@@ -152,7 +152,7 @@ double largest_rate(const Pump& pump, double end_time) {
 
 void pressure_loss(const Scene& scene, double end_time, Lines& lines) {
   const double rate = largest_rate(scene.pump, end_time);
-  if (!scene.fluid || rate <= 0.0) return;
+  if (!scene.fluid || scene.flow || rate <= 0.0) return;
   const double modulus = plane_strain_modulus(scene.stiffness);
   const double tough = toughness(modulus, scene.cohesive.fracture_energy_mode1);
   const double k = dimensionless_toughness(modulus, tough, water_viscosity, rate);

@@ -12,6 +12,7 @@
 #include "crackle/core/parallel.hpp"
 #include "crackle/seismic/listener.hpp"
 #include "crackle/solve/lanczos.hpp"
+#include "sparse_solver.hpp"
 
 namespace crackle {
 namespace {
@@ -112,6 +113,7 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
   if (scene_.fluid) {
     fluid_.emplace(state_, *scene_.fluid, scene_.pump);
     if (scene_.joints_edge_by_edge) fluid_->enter_joints_as_they_open();
+    if (scene_.flow) fluid_->flow(state_, {*scene_.flow, sparse_solver()});
   }
   if (scene_.absorbing_boundary) boundary_.emplace(std::move(memory.boundary));
   if (scene_.free_boundary || !scene_.loads.empty()) {

@@ -7,6 +7,7 @@
 
 #include "crackle/fluid/compressible.hpp"
 #include "crackle/fluid/pump.hpp"
+#include "crackle/fluid/viscous_flow.hpp"
 #include "crackle/state/state.hpp"
 
 namespace crackle {
@@ -28,6 +29,12 @@ class Fluid {
 
   const CompressibleFluid& properties() const { return fluid_; }
   const Pump& pump() const { return pump_; }
+
+  /// From now on pressure falls along the fractures by the fluid's viscosity. What the cavities hold is spread
+  /// at their pressures; a state that has cells goes on with them.
+  void flow(State& state, FlowChoice choice);
+  /// Pressure in a wet edge [Pa].
+  double pressure(const State& state, Index edge) const;
 
   /// Makes a cavity of mesh edges (boundary edges, or elements cut beforehand), filled with fluid at
   /// the given pressure [Pa]. @return its number
@@ -129,6 +136,7 @@ class Fluid {
   std::vector<Wet> wet_;
   std::vector<double> rock_;                        // per cavity: area of wet triangles at rest [m2]
   std::vector<double> volume_, compliance_, push_;  // per cavity: V(x), s, pressure that pushes
+  std::optional<ViscousFlow> flow_;
   std::optional<double> held_;
   bool leaks_ = false;
   bool joints_as_they_open_ = false;

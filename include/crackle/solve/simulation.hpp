@@ -85,8 +85,9 @@ struct Scene : RockMass {
   std::optional<CompressibleFluid> fluid;
   bool wets_damaged =
       false;  ///< the fluid enters elements and triangles that have begun to open; else broken ones
-  double initial_pressure = 0.0;  ///< of the fluid, above pore_pressure [Pa]
-  double pore_pressure = 0.0;     ///< of the formation: only what is told of pressures has it added [Pa]
+  std::optional<FractureFluid> flow;  ///< pressure falls along fractures; none: one pressure in each cavity
+  double initial_pressure = 0.0;      ///< of the fluid, above pore_pressure [Pa]
+  double pore_pressure = 0.0;         ///< of the formation: only what is told of pressures has it added [Pa]
   Pump pump;
   bool fast_forward = false;  ///< the elastic ramp by linear solves, where it holds
   double thickness = 1.0;     ///< for magnitudes [m]

@@ -133,10 +133,19 @@ void members(Cavity& c, V&& v) {
 }
 
 template <class V>
+void members(FlowCell& c, V&& v) {
+  v("edge", c.edge);
+  v("mass", c.mass);
+  v("pressure", c.pressure);
+  v("volume", c.volume);
+}
+
+template <class V>
 void members(FluidState& f, V&& v) {
   v("cavities", f.cavities);
   v("cavity_of_edge", f.cavity_of_edge);
   v("cavity_of_vertex", f.cavity_of_vertex);
+  v("cells", f.cells);
 }
 
 template <class V>

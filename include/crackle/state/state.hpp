@@ -135,10 +135,19 @@ struct Cavity {
   double work = 0.0;      ///< done by the pump [J/m]
 };
 
+/// Fluid of an edge, or of the wellbore, where pressure differs from place to place.
+struct FlowCell {
+  Index edge = -1;        ///< of the mesh; -1: the wellbore
+  double mass = 0.0;      ///< per metre of thickness [kg/m]
+  double pressure = 0.0;  ///< [Pa]
+  double volume = 0.0;    ///< per metre of thickness [m2]
+};
+
 struct FluidState {
   std::vector<Cavity> cavities;         ///< 0 is the wellbore; a merged cavity stays with zero mass
   std::vector<Index> cavity_of_edge;    ///< per mesh edge; -1: dry
   std::vector<Index> cavity_of_vertex;  ///< per mesh vertex; -1: not reached
+  std::vector<FlowCell> cells;          ///< by edge; empty: a cavity has one pressure
 };
 
 /// Cumulative energies that are sums of increments, per metre of thickness [J/m].
