@@ -15,6 +15,7 @@
 namespace crackle {
 namespace {
 
+constexpr double farthest = 1e12;  // [m]; lengths and areas are finite
 constexpr std::array<std::string_view, 4> names{"x1_m", "y1_m", "x2_m", "y2_m"};
 
 std::string_view trimmed(std::string_view text) {
@@ -87,6 +88,8 @@ class Reader {
       if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(x[i])) {
         fail(fmt::format("{} is \"{}\", which is not a number", names[i], cell.substr(0, 40)));
       }
+      if (std::abs(x[i]) > farthest)
+        fail(fmt::format("{} is {:g} m, farther than {:g} m", names[i], x[i], farthest));
     }
     if (x[0] == x[2] && x[1] == x[3]) fail("the joint has no length: remove the row");
     return {{x[0], x[1]}, {x[2], x[3]}, set};

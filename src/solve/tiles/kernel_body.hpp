@@ -18,9 +18,8 @@ inline constexpr int parts = lanes / width;  // of a group
 
 using V = double __attribute__((vector_size(8 * width)));
 using V8 = double __attribute__((vector_size(64)));
-using V4 = double __attribute__((vector_size(32), aligned(8), may_alias));
+using V4 = double __attribute__((vector_size(32)));
 using V2 = double __attribute__((vector_size(16), aligned(16), may_alias));
-using Pairs4 = double __attribute__((vector_size(64), aligned(16), may_alias));  // of four nodes
 using Row = double __attribute__((vector_size(8 * width), aligned(8 * width), may_alias));
 using Bytes = std::uint8_t __attribute__((vector_size(width), aligned(width), may_alias));
 
@@ -36,9 +35,16 @@ CRACKLE_INLINE void put_mask(std::uint8_t* p, Mask mask) {
   *reinterpret_cast<Bytes*>(p) = __builtin_convertvector(mask, Bytes);
 }
 
-CRACKLE_INLINE V4 four(const double* p) { return *reinterpret_cast<const V4*>(p); }
-CRACKLE_INLINE V8 pairs(const double* p) { return *reinterpret_cast<const Pairs4*>(p); }
-CRACKLE_INLINE void put_pairs(double* p, V8 v) { *reinterpret_cast<Pairs4*>(p) = v; }
+// Of four nodes, aligned like one: by bytes, as clang takes a vector in memory to be aligned like the vector.
+template <class Vector>
+CRACKLE_INLINE Vector unaligned(const double* p) {
+  Vector v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+CRACKLE_INLINE V4 four(const double* p) { return unaligned<V4>(p); }
+CRACKLE_INLINE V8 pairs(const double* p) { return unaligned<V8>(p); }
+CRACKLE_INLINE void put_pairs(double* p, V8 v) { __builtin_memcpy(p, &v, sizeof v); }
 CRACKLE_INLINE void put_two(double* p, V2 v) { *reinterpret_cast<V2*>(p) = v; }
 
 struct Pairs {

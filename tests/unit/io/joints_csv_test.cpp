@@ -49,6 +49,7 @@ TEST_F(JointsCsv, RefusesAllElse) {
       {"x1_m,y1_m,x2_m\n", ":1: there is no column y2_m"},
       {"x1_m,y1_m,x2_m,y2_m\n0,0,1\n", ":2: this row has 3 columns instead of 4"},
       {"x1_m,y1_m,x2_m,y2_m\n0,0,1,1,1\n", ":2: this row has 5 columns instead of 4"},
+      {"x1_m,y1_m,x2_m,y2_m\n1e211,0,1,1\n", ":2: x1_m is 1e+211 m, farther than 1e+12 m"},
       {"x1_m,y1_m,x2_m,y2_m\n0,0,1,1\n0,0,one,1\n", ":3: x2_m is \"one\", which is not a number"},
       {"x1_m,y1_m,x2_m,y2_m\n0,0,1 m,1\n", "x2_m is \"1 m\""},
       {"x1_m,y1_m,x2_m,y2_m\n0,0,,1\n", "x2_m is \"\""},
