@@ -4,8 +4,8 @@
 // mesh while its ledger still closes. It shows before, in
 //   made energy       cohesive elements gave back more than they had taken: a warning from 2 % of
 //                     what broke and rubbed, a stop from 20 %
-//   given energy      elements inserted under load that broke before paying that back, and curved elastic
-//                     branches, gave more than 5 % of what broke and rubbed (a warning)
+//   given energy      elements inserted under load that broke before paying that back, and laws without
+//                     potential, gave more than 5 % of what broke and rubbed (a warning)
 //   grid oscillation  ½ Σ m v(n−½)·v(n+½) below −10 % of the largest energy: velocities change sign from step
 //                     to step, as at the highest frequency of the mesh and above
 //   stray break       an element breaks that touches no fracture, cohesive zone or free face, in rock that
