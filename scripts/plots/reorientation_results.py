@@ -80,7 +80,7 @@ def ratio_of(run):
 
 
 def row_of(name, run, known):
-    method, beta, wanted = name.split("-")
+    method, beta, wanted = name.split("-")[:3]
     ratio = ratio_of(run)
     theory = between(known, float(beta), ratio)
     notch, parts = run.case["notches"][0], results_page.broken(run)
@@ -112,6 +112,19 @@ def table(rows):
     return results_page.markdown(["method, angle of the notch", "R", "y(2 a0)/a0, both tips", "theory",
                                   f"off (gate {GATE_Y})", "direction at 2 a0 [°]", "theory", f"off (gate {GATE_DIRECTION:.0f}°)",
                                   "energy residual"], lines)
+
+
+def means(rows):
+    """Over both tips of all meshes of edges on demand."""
+    lines = []
+    for beta, wanted in sorted({(r["beta_deg"], r["R_wanted"]) for r in rows}):
+        mine = [r for r in rows if r["method"] == "demand" and (r["beta_deg"], r["R_wanted"]) == (beta, wanted)]
+        off = [r[f"y_2_tip{t}"] - r["reference_y_2"] for r in mine for t in (1, 2)]
+        turn = [r[f"dir_2_tip{t}_deg"] - r["reference_dir_2_deg"] for r in mine for t in (1, 2)]
+        lines.append([f"{beta}°, R = {wanted:g} wanted", f"{np.mean(off):+.2f} ± {np.std(off, ddof=1):.2f}",
+                      f"{np.mean(turn):+.1f} ± {np.std(turn, ddof=1):.1f}"])
+    return results_page.markdown([f"edges on demand, mean and deviation over both tips of {len(mine)} meshes",
+                                  f"y(2 a0)/a0, off (gate {GATE_Y})", f"direction, off [°] (gate {GATE_DIRECTION:.0f})"], lines)
 
 
 def draw(paths, rows, known, path):
@@ -147,7 +160,7 @@ def make(runs, folder):
     pairs = {name: row_of(name, run, known) for name, run in runs.items()}
     rows = [row for row, _ in pairs.values()]
     results_page.write_csv(folder / "results.csv", rows)
-    results_page.put_between(folder / "README.md", "results", table(rows))
+    results_page.put_between(folder / "README.md", "results", means(rows) + "\n" + table(rows))
     draw({name: paths for name, (_, paths) in pairs.items()}, rows, known, folder / "reorientation.png")
 
 
