@@ -139,6 +139,17 @@ TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
   report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
 }
 
+TEST_F(Resume, LeavesTheSameBytesWithViscousFlow) {
+  const std::vector<std::string> viscous{"--set", "cohesive.insertion=on_demand",
+                                         "--set", "fluid.flow=viscous",
+                                         "--set", "fluid.viscosity=1e-3 Pa s"};
+  ASSERT_EQ(run("whole", viscous).code, 0);
+  EXPECT_EQ(interrupted_run("parts", 15, viscous).code, 75);
+  EXPECT_EQ(resume("parts", "2").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+  report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
+}
+
 // Layers of other density, stiffness, strength and stress, one with an interface that may part.
 TEST_F(Resume, LeavesTheSameBytesInLayeredRock) {
   write("case.toml", std::string(good_case) + R"(
