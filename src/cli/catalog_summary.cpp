@@ -35,8 +35,8 @@ std::string kinds(const std::vector<SeismicEvent>& events) {
   std::string text = fmt::format("  breaking: {} tensile, {} shear, {} mixed; {:.4g} m broken\n", by_mode[1],
                                  by_mode[2], by_mode[3], broken);
   if (slips > 0) {
-    text += fmt::format("  slips: {}, over {:.4g} m, {:.3g} J/m dissipated by friction\n", slips,
-                        slid, friction);
+    text +=
+        fmt::format("  slips: {}, over {:.4g} m, {:.3g} J/m dissipated by friction\n", slips, slid, friction);
   }
   return text;
 }

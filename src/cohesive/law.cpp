@@ -142,7 +142,8 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
     const double pressed = std::min(k * old.opening, 0.0);  // before
     const double held = std::max(shear_strength(m, pressed) - residual_strength(m, pressed), 0.0);
     const auto share = [&](const CohesivePoint& q) {  // E_s over what is held
-      return softening(q.damage) * q.slip_max * branch_energy(c, std::min(1.0, std::abs(q.slip) / q.slip_max));
+      return softening(q.damage) * q.slip_max *
+             branch_energy(c, std::min(1.0, std::abs(q.slip) / q.slip_max));
     };
     p.path += 0.5 * (share(old) + share(p)) * (std::max(strength - residual, 0.0) - held);
   }

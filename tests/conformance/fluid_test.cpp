@@ -173,8 +173,9 @@ TEST(Fluid, NothingChangesBetweenRigidWalls) {
   EXPECT_NEAR(after.pressure / before.pressure, 1.0, 1e-12);
 }
 
-// Without viscosity to speak of (faces are 1 to 8 um apart), flow is the cavity of one pressure; explicit flow would be held to
-// 6 μ L²/(K_f w²). With water the notch is not yet full, the pressure of the wellbore is higher, and the ledger closes.
+// Without viscosity to speak of (faces are 1 to 8 um apart), flow is the cavity of one pressure; explicit
+// flow would be held to 6 μ L²/(K_f w²). With water the notch is not yet full, the pressure of the wellbore
+// is higher, and the ledger closes.
 TEST(Fluid, FlowIsTheCavityWithoutViscosity) {
   const auto run = [](double viscosity) {
     Scene scene = small_wellbore(0.02);

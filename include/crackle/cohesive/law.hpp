@@ -27,11 +27,11 @@
 //
 // In bedded rock strengths and fracture energies are those of the edge's direction (bedding.hpp).
 //
-// Work on a closed path: the shear that is borne at a slip follows the normal stress, the normal traction does not
-// follow the slip, so that there is no potential. A change of normal stress by dσ at held slip changes the
-// shear's energy E_s(s, D, σ) without work: dE_s is given by the law, and counted (CohesivePoint::path). So
-// is what the friction spring of an edge that yields holds beyond its share of the elastic branch, where
-// tangential_penalty is not k L f_r/f_s.
+// Work on a closed path: the shear that is borne at a slip follows the normal stress, the normal traction
+// does not follow the slip, so that there is no potential. A change of normal stress by dσ at held slip
+// changes the shear's energy E_s(s, D, σ) without work: dE_s is given by the law, and counted
+// (CohesivePoint::path). So is what the friction spring of an edge that yields holds beyond its share of the
+// elastic branch, where tangential_penalty is not k L f_r/f_s.
 //
 // Calibration: "y_geo" takes the softening lengths of Y-Geo, o_t = 3 G_I / f_t and s_t = 3 G_II / f_s
 // (so that evans_marathe dissipates 1.159 G and the elastic part on top); "exact" takes those with

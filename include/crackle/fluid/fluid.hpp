@@ -30,8 +30,8 @@ class Fluid {
   const CompressibleFluid& properties() const { return fluid_; }
   const Pump& pump() const { return pump_; }
 
-  /// From now on pressure falls along the fractures by the fluid's viscosity. What the cavities hold is spread
-  /// at their pressures; a state that has cells goes on with them.
+  /// From now on pressure falls along the fractures by the fluid's viscosity. What the cavities hold is
+  /// spread at their pressures; a state that has cells goes on with them.
   void flow(State& state, FlowChoice choice);
   /// Pressure in a wet edge [Pa].
   double pressure(const State& state, Index edge) const;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Viscous flow in a network of fractures beside explicit steps of the rock: implicit, so that it does not limit
-// the step (explicit flow would, to Δt ≤ 6 μ L²/(K_f w²): 1e-9 s for a crack of 0.1 mm in water).
+// Viscous flow in a network of fractures beside explicit steps of the rock: implicit, so that it does not
+// limit the step (explicit flow would, to Δt ≤ 6 μ L²/(K_f w²): 1e-9 s for a crack of 0.1 mm in water).
 //   cell      m_c = m_cⁿ + Δt (ρ₀ Q_c + ρ₀ Σ_d T_cd (p_d − p_c)),   m_c = ρ(p_c) V_c
 //   volume    V_c = V_c* + Δt² Σ_d S_cd p_d,   S_cd = Σ_nodes ∂V_c/∂x · ∂V_d/∂x / mass
 //   filling   m_c < ρ(p_cav) V_c: the cell is not full, and p_c = p_cav
-// with V* after the rock has moved without the fluid, and T by the cubic law (fracture_flow.hpp) of the apertures
-// then. A cell is a wetted edge of the mesh between two triangles, or the wellbore. In limits it is the cavity of
-// one pressure (μ → 0) and the incompressible fluid (K_f → ∞).
+// with V* after the rock has moved without the fluid, and T by the cubic law (fracture_flow.hpp) of the
+// apertures then. A cell is a wetted edge of the mesh between two triangles, or the wellbore. In limits it is
+// the cavity of one pressure (μ → 0) and the incompressible fluid (K_f → ∞).
 //
 // | parameter           | unit | range | meaning                                                      |
 // |---------------------|------|-------|--------------------------------------------------------------|
@@ -60,7 +60,7 @@ class ViscousFlow {
   /// the edges at the wetted vertex nearest to the origin [m2]
   void advance(State& state, double dt, double injected);
 
-  double energy(const State& state) const;  ///< [J/m]
+  double energy(const State& state) const;                ///< [J/m]
   double pressure(const State& state, Index edge) const;  ///< in a wet edge [Pa]
   /// Calls `add(corner, force)` [N/m] for every share of a cell in a corner, at present pressures.
   void for_each_load(const State& state, const std::function<void(Index, Vec2)>& add) const;
