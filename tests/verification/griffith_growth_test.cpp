@@ -6,7 +6,7 @@
 // On a straight path, as theory has it. It grows at 70 m/s, 3 % of the speed of Rayleigh waves.
 #include <gtest/gtest.h>
 
-#include "../granite.hpp"
+#include "../pumped_crack.hpp"
 #include "../result.hpp"
 #include "crackle/solve/estimates.hpp"
 
@@ -30,27 +30,9 @@ Scene make_scene() {
   recipe.joints = {
       {{-notch, 0.0}, {notch, 0.0}, 0}, {{notch, 0.0}, {path, 0.0}, 1}, {{-path, 0.0}, {-notch, 0.0}, 1}};
   recipe.joint_sets = {"crack", "path"};
-  Scene scene = granite::scene(std::make_shared<const Mesh>(generate_mesh(recipe)));
+  Scene scene = granite::pumped_crack(std::make_shared<const Mesh>(generate_mesh(recipe)),
+                                      "benzeggagh_kenane", fluid_modulus, rate);
   scene.stress = {-2e6, 0.0, 0.0};  // along the crack: no part in the theory
-  scene.damping.ratio = 0.1;
-  scene.law = find_law("benzeggagh_kenane");
-  scene.cohesive = granite::cohesive();
-  scene.cohesive.penalty = scene.cohesive.tangential_penalty = 20.0 * granite::young_modulus;
-  scene.contact = {scene.cohesive.penalty, scene.cohesive.penalty, scene.cohesive.tan_residual};
-  scene.insertion.on_demand = true;
-  scene.joint_materials = {scene.cohesive};
-  for (Index e = 0; e < scene.mesh->edge_count(); ++e) {
-    const Index joint = scene.mesh->edges[at(e)].joint;
-    if (joint < 0) continue;
-    if (scene.mesh->set_of_joint[at(joint)] == 0) {
-      scene.cracks.push_back(e);
-    } else {
-      scene.joints.push_back({e, 1, true});
-    }
-  }
-  scene.fluid = CompressibleFluid{fluid_modulus, 1000.0, 0.0};
-  scene.wets_damaged = true;
-  scene.pump = Pump({{0.0, 1.0, rate}});
   return scene;
 }
 

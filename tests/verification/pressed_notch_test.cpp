@@ -7,7 +7,7 @@
 // below Griffith's pressure.
 #include <gtest/gtest.h>
 
-#include "../granite.hpp"
+#include "../pumped_crack.hpp"
 #include "../result.hpp"
 #include "crackle/solve/estimates.hpp"
 
@@ -27,19 +27,9 @@ Scene make_scene(std::uint64_t seed, double pressure) {
   recipe.seed = seed;
   recipe.joints = {{{-half, 0.0}, {half, 0.0}, 0}};
   recipe.joint_sets = {"notch"};
-  Scene scene = granite::scene(std::make_shared<const Mesh>(generate_mesh(recipe)));
-  scene.damping.ratio = 0.1;
-  scene.law = find_law("benzeggagh_kenane");
-  scene.cohesive = granite::cohesive();
-  scene.cohesive.penalty = scene.cohesive.tangential_penalty = 20.0 * granite::young_modulus;
-  scene.contact = {scene.cohesive.penalty, scene.cohesive.penalty, scene.cohesive.tan_residual};
-  scene.insertion.on_demand = true;
-  for (Index e = 0; e < scene.mesh->edge_count(); ++e)
-    if (scene.mesh->edges[at(e)].joint >= 0) scene.cracks.push_back(e);
-  scene.fluid = CompressibleFluid{1e5, 1000.0, 0.0};
+  Scene scene = granite::pumped_crack(std::make_shared<const Mesh>(generate_mesh(recipe)),
+                                      "benzeggagh_kenane", 1e5, 0.2);
   scene.initial_pressure = pressure;
-  scene.wets_damaged = true;
-  scene.pump = Pump({{0.0, 1.0, 0.2}});
   return scene;
 }
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../../acceptance.hpp"
-#include "../../granite.hpp"
+#include "../../pumped_crack.hpp"
 #include "crackle/mesh/grid.hpp"
 #include "crackle/solve/estimates.hpp"
 #include "crackle/solve/quasi_static.hpp"
@@ -32,27 +32,8 @@ std::shared_ptr<const Mesh> make_mesh() {
 }
 
 Scene explicit_scene(std::shared_ptr<const Mesh> mesh) {
-  Scene scene = granite::scene(std::move(mesh));
+  Scene scene = granite::pumped_crack(std::move(mesh), "linear", fluid_modulus, rate);
   scene.stress = in_situ;
-  scene.damping.ratio = 0.1;
-  scene.law = find_law("linear");
-  scene.cohesive = granite::cohesive();
-  scene.cohesive.penalty = scene.cohesive.tangential_penalty = 20.0 * granite::young_modulus;
-  scene.contact = {scene.cohesive.penalty, scene.cohesive.penalty, scene.cohesive.tan_residual};
-  scene.insertion.on_demand = true;
-  scene.joint_materials = {scene.cohesive};
-  for (Index e = 0; e < scene.mesh->edge_count(); ++e) {
-    const Index joint = scene.mesh->edges[at(e)].joint;
-    if (joint < 0) continue;
-    if (scene.mesh->set_of_joint[at(joint)] == 0) {
-      scene.cracks.push_back(e);
-    } else {
-      scene.joints.push_back({e, 1, true});
-    }
-  }
-  scene.fluid = CompressibleFluid{fluid_modulus, 1000.0, 0.0};
-  scene.wets_damaged = true;
-  scene.pump = Pump({{0.0, 1.0, rate}});
   return scene;
 }
 
