@@ -33,7 +33,7 @@ Scene make_scene(std::uint64_t seed, double pressure) {
   return scene;
 }
 
-TEST(PressedNotch, GrowsAtGriffithsPressure) {
+TEST(PressedNotch, FluidInItsCohesiveZoneLowersThePressureAtWhichItGrows) {
   const Check check("D5 notch under pressure in a random mesh: pressure at which it grows");
   const double modulus = plane_strain_modulus(granite::stiffness());
   const double griffith =
