@@ -41,22 +41,21 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+std::size_t letters_off(std::string_view word, std::string_view name) {
+  return goes_on(word, name) ? 1 : edit_distance(word, name);
+}
+
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates,
                          std::size_t most) {
   std::string_view best;
   std::size_t within = most == std::string_view::npos ? most : most + 1;
   for (const std::string_view candidate : candidates) {
-    if (goes_on(word, candidate) && within > 1) {
-      within = 1;
-      best = candidate;
-      continue;
-    }
     // The difference in length is a bound that costs nothing.
     const std::size_t a = std::min(word.size(), longest_name), b = std::min(candidate.size(), longest_name);
-    if ((a > b ? a - b : b - a) >= within) continue;
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance >= within) continue;
-    within = distance;
+    if ((a > b ? a - b : b - a) >= within && !goes_on(word, candidate)) continue;
+    const std::size_t off = letters_off(word, candidate);
+    if (off >= within) continue;
+    within = off;
     best = candidate;
   }
   return best;

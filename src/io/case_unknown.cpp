@@ -53,7 +53,7 @@ std::string unknown_key(const TomlNode& node, const TableSpec& table) {
   const std::vector<std::string_view> here = names_in(table);
   const std::string_view close = nearest(node.key, here);
   std::string advice = fmt::format("the nearest is \"{}\"", close);
-  const std::size_t distance = edit_distance(node.key, close);
+  const std::size_t distance = letters_off(node.key, close);
   for (const TableSpec& other : case_tables()) {
     if (distance < 2) break;
     const std::vector<std::string_view> there = names_in(other);

@@ -11,10 +11,11 @@ namespace crackle {
 /// (Damerau 1964, restricted: optimal string alignment), case ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate with the smallest edit distance to `word`, the first of equals; one that goes on after
-/// `word` with
-/// "_..." counts as one letter off. Empty if there is none within `most`. For messages on a misspelt key or
-/// law.
+/// The same, but 1 where `name` goes on after `word` with "_...".
+std::size_t letters_off(std::string_view word, std::string_view name);
+
+/// The candidate the fewest letters_off() `word`, the first of equals; empty if there is none within `most`.
+/// For messages on a misspelt key or law.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates,
                          std::size_t most = std::string_view::npos);
 

@@ -33,6 +33,9 @@ TEST(Nearest, TakesTheClosestAndTheFirstOfEquals) {
   const std::string_view keys[] = {"density", "length_mean", "seed"};
   EXPECT_EQ(nearest("length", keys), "length_mean");
   EXPECT_EQ(nearest("sed", keys), "seed");
+  EXPECT_EQ(letters_off("length", "length_mean"), 1U);
+  EXPECT_EQ(letters_off("length", "lengths"), 1U);
+  EXPECT_EQ(letters_off("length", "density"), edit_distance("length", "density"));
 }
 
 }  // namespace
