@@ -108,13 +108,25 @@ def griffith(injected, fluid_modulus, notch):
     return low, pressure(low)
 
 
+def wings(segments):
+    """2 where one wing is modelled and stands for both (field time, straight), else 1."""
+    return 2.0 if segments[:, :, 0].min() > -1e-9 else 1.0
+
+
+def broken_area(run, ends):
+    """Of all broken edges; in field time along the fracture: there an edge stands for the smooth fracture."""
+    if run.case["run"]["regime"] == "quasi_static":
+        return wings(ends) * np.ptp(ends[:, :, 0])
+    return np.hypot(*(ends[:, 1] - ends[:, 0]).T).sum()
+
+
 def energy_per_area(run):
     """Dissipated per area broken, slope over the second half of the run: the cohesive zone only moves meanwhile."""
     h, frames = run.history, run.frames("fractures")
     area, energy = [], []
     for time, path in frames[len(frames) // 2:]:
         ends = Fractures(path).segments[np.asarray(Frame(path).cell_fields["broken"]) > 0]
-        area.append(np.hypot(*(ends[:, 1] - ends[:, 0]).T).sum())
+        area.append(broken_area(run, ends))
         energy.append(np.interp(time, h["time_s"], h["energy_fracture_J_m"]))
     value = np.polyfit(area, energy, 1)[0] if area[-1] > area[0] else math.nan
     return "energy_per_area_J_m2", value, value / ENERGY - 1.0
@@ -133,7 +145,7 @@ def crack(run):
         injected = np.interp(time, h["time_s"], h["injected_m2"])
         a, p = griffith(injected, modulus, notch)
         wet = fractures.segments[fractures.wet]
-        length.append(0.5 * (wet[:, :, 0].max() - wet[:, :, 0].min()) / a - 1.0)
+        length.append(0.5 * wings(wet) * (wet[:, :, 0].max() - wet[:, :, 0].min()) / a - 1.0)
         middle = np.argmin(np.abs(fractures.segments.mean(axis=1)[:, 0]))
         width.append(frame.cell_fields["opening_m"][middle] / (4.0 * p * a / PLANE_STRAIN) - 1.0)
     return [("pressure", pressure + 1.0, pressure), ("half_length", np.mean(length) + 1.0, np.mean(length)),
