@@ -369,23 +369,24 @@ void ViscousFlow::advance(State& state, double dt, double injected) {
     gained[at(links_[k].a)] -= q;
     gained[at(links_[k].b)] += q;
   }
-  double lost = 0.0;
+  double late = 0.0;
+  lost_ahead_ = 0.0;
   for (std::size_t c = 0; c < f.cells.size(); ++c) {
     FlowCell& cell = f.cells[c];
     const double pumped = inflow[c] * fluid_.density;
     const double work = pumped * 0.5 * (fluid_.enthalpy(cell.pressure) + fluid_.enthalpy(pressure_[c]));
     // The rock's leapfrog takes the mean of the pressures that push before and after a move as the work on
     // it: this step's pressure was not yet known when the one before was booked.
-    lost += work + held_energy(cell.mass, cell.volume);
-    lost -= 0.5 * (push_[c] + pressure_[c]) * (volume_[c] - cell.volume);
-    lost -= 0.5 * (push_[c] - cell.pressure) * (start_[c] - cell.volume);
+    late -= 0.5 * (push_[c] - cell.pressure) * (start_[c] - cell.volume);
+    lost_ahead_ += work + held_energy(cell.mass, cell.volume);
+    lost_ahead_ -= 0.5 * (push_[c] + pressure_[c]) * (volume_[c] - cell.volume);
     well.work += work;
     cell.mass += gained[c] * fluid_.density;
     cell.pressure = pressure_[c];
     cell.volume = volume_[c];
-    lost -= held_energy(cell.mass, cell.volume);
+    lost_ahead_ -= held_energy(cell.mass, cell.volume);
   }
-  state.dissipation.viscous += lost;
+  state.dissipation.viscous += late + lost_ahead_;
   move(state, dt);
   well.injected += injected;
   for (Cavity& cavity : f.cavities) cavity.mass = cavity.volume = cavity.pressure = 0.0;

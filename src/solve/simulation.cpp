@@ -270,7 +270,7 @@ void Simulation::advance(double dt, Energies* account) {
   if (account != nullptr) {
     // ½ Σ m v(n−½)·v(n+½): with the stored energies at n this is what the integrator conserves.
     account->kinetic = kinetic_energy(velocity_before_);
-    account->viscous = state_.dissipation.viscous;
+    account->viscous = state_.dissipation.viscous - (fluid_ ? fluid_->lost_ahead() : 0.0);
     account->external -= radiated;
     stopwatch_.lap(Stopwatch::ledger);
   }

@@ -199,7 +199,7 @@ TEST(Fluid, FlowIsTheCavityWithoutViscosity) {
         "residual %.1e\n",
         viscosity, scene.cracks.size(), 1e-6 * simulation.wellbore_pressure(), 1e-6 * tip,
         simulation.state().dissipation.viscous, residual);
-    EXPECT_LT(residual, 2e-3);
+    EXPECT_LT(residual, 1e-3);
     return std::array<double, 2>{simulation.wellbore_pressure(), tip};
   };
   const auto cavity = run(0.0), thin = run(1e-13), water = run(1e-3);

@@ -61,6 +61,7 @@ class ViscousFlow {
   void advance(State& state, double dt, double injected);
 
   double energy(const State& state) const;                ///< [J/m]
+  double lost_ahead() const { return lost_ahead_; }       ///< in the last step, after its beginning [J/m]
   double pressure(const State& state, Index edge) const;  ///< in a wet edge [Pa]
   /// Calls `add(corner, force)` [N/m] for every share of a cell in a corner, at present pressures.
   void for_each_load(const State& state, const std::function<void(Index, Vec2)>& add) const;
@@ -100,6 +101,7 @@ class ViscousFlow {
   std::vector<double> conductance_;  // per link, times the step [m2/Pa]
   std::vector<Index> inlets_;
   bool fresh_ = true;
+  double lost_ahead_ = 0.0;
   // of a step, per cell
   std::vector<double> start_;     // V* [m2]
   std::vector<double> implicit_;  // share of the pressure at the step's end in what pushes
