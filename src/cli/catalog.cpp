@@ -85,7 +85,7 @@ int catalog_command(const CatalogOptions& options) {
     std::fwrite(text.data(), 1, text.size(), stdout);
   } else {
     write_text(options.output, text);
-    fmt::print("{}: {} events\n", options.output, events.size());
+    fmt::print("{}: {} event{}\n", options.output, events.size(), events.size() == 1 ? "" : "s");
   }
   return 0;
 }

@@ -63,10 +63,10 @@ std::string clusters(const std::vector<SeismicEvent>& events, const ClusterRule&
     return a.events.size() < b.events.size();
   });
   return fmt::format(
-      "  clusters within {:.3g} mm and {:.3g} us: {}; the largest has {} events, {:.4g} m, M {:.2f}, Mw "
-      "{:.2f}\n",
-      1e3 * rule.radius, 1e6 * rule.window, found.size(), largest.events.size(), largest.length,
-      largest.magnitude, largest.moment_magnitude);
+      "  clusters within {:.3g} mm and {:.3g} us: {}; the largest has {} event{}, {:.4g} m, M {:.2f}, "
+      "Mw {:.2f}\n",
+      1e3 * rule.radius, 1e6 * rule.window, found.size(), largest.events.size(),
+      largest.events.size() == 1 ? "" : "s", largest.length, largest.magnitude, largest.moment_magnitude);
 }
 
 }  // namespace
