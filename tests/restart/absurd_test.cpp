@@ -57,6 +57,8 @@ class AbsurdScene : public CliTest, public testing::WithParamInterface<Absurd> {
 INSTANTIATE_TEST_SUITE_P(Of, AbsurdScene, testing::ValuesIn(scenes),
                          [](const auto& test) { return test.param.name; });
 
+using AbsurdThreads = CliTest;
+
 TEST_P(AbsurdScene, EndsInBoundedTimeAndMemory) {
   write("case.toml", good_case);
   std::vector<std::string> arguments{"run",   path("case.toml"),   "-q", "-j", "1", "-o", path("out"),
@@ -78,6 +80,26 @@ TEST_P(AbsurdScene, EndsInBoundedTimeAndMemory) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   report_faults(fault, 1, Left::survived);
+}
+
+TEST_F(AbsurdThreads, MoreThanThereCanBe) {
+  write("case.toml", good_case);
+  const std::vector<std::string> arguments{"run",   path("case.toml"),   "-q", "-o", path("out"),
+                                           "--set", "run.end_time=2 us", "-j"};
+  const auto with = [&](const char* threads) {
+    std::vector<std::string> all = arguments;
+    all.emplace_back(threads);
+    return Process(all, path("process"),
+                   [] {
+                     const rlimit bytes{rlim_t{2} << 30, rlim_t{2} << 30};  // stacks for some 200
+                     setrlimit(RLIMIT_AS, &bytes);
+                   })
+        .wait();
+  };
+  expect_refusal(with("1024"), 2, "1024 threads cannot be had");
+  EXPECT_FALSE(std::filesystem::exists(path("out/resolved.toml")));
+  EXPECT_EQ(with("32").code, 0) << "more than there are cores";
+  report_faults("more threads than a limit lets it have", 1, Left::refused);
 }
 
 }  // namespace
