@@ -112,6 +112,7 @@ const std::vector<Untaken> untaken{
     {"SmearedDamage", "", "cohesive.insertion=none", "cohesive.insertion = \"none\" has none"},
     {"ViscousFlowWithoutViscosity", "", "fluid.flow=viscous fluid.viscosity=0",
      "needs a fluid.viscosity above 0"},
+    {"Tension", "", "stress.yy=1e6", "an effective tension of 1 MPa across the fracture"},
     {"StressGradient", "", "stress.gradient_xx=1e4", "stress gradients are not yet taken"},
     {"StraightPathAtAnAngle", "", "fracture.path=straight fracture.angle=0.1", "\"straight\" cannot be"},
     {"PathThatEndsInTheNotch", "", "mesh.fine_radius=2.5", "it has to be above fracture.notch"},
