@@ -75,12 +75,13 @@ def row(arguments):
         chosen = sweep.row(arguments.name)
     if chosen.is_done():
         return
-    sweep.clear(chosen)
-    chosen.folder.mkdir(parents=True)
-    (chosen.folder / "row.json").write_text(
-        json.dumps({"fingerprint": chosen.fingerprint, "overrides": chosen.overrides}, indent=2) + "\n",
-        encoding="utf-8")
     words = chosen.command(sweep)
+    if not chosen.can_be_resumed():
+        sweep.clear(chosen)
+        chosen.folder.mkdir(parents=True)
+        (chosen.folder / "row.json").write_text(
+            json.dumps({"fingerprint": chosen.fingerprint, "overrides": chosen.overrides}, indent=2) + "\n",
+            encoding="utf-8")
     os.execv(words[0], words)  # signals of Slurm or of a user so reach crackle itself
 
 

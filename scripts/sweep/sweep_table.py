@@ -4,10 +4,10 @@
     DIR/sweep.json     the base case and what a run may take
     DIR/table.csv      one row a run: `run` (name), `seed`, and any key of a case ("rock.density")
     DIR/runs/NAME      run folders; row.json in each says which row they are of
-    DIR/failed/NAME-N  what was left of runs that were killed or failed, before they were run again
+    DIR/failed/NAME-N  what was left of runs that failed, before they were run again
 
 A run is done when its status.json says so and its row.json is that of the row as it stands now: a row that
-was changed, or whose base case was, is run again.
+was changed, or whose base case was, is run again. One that was interrupted or killed goes on from its checkpoint.
 """
 
 import csv
@@ -108,6 +108,9 @@ class Row:
     def is_done(self):
         return self.status()["state"] == "done"
 
+    def can_be_resumed(self):
+        return self.status()["state"] in ("interrupted", "killed") and (self.folder / "resolved.toml").exists()
+
     def _goes_on(self, status):
         if status["host"] == socket.gethostname():
             return is_alive(status["process"])
@@ -121,6 +124,8 @@ class Row:
         return min(1.0, status["time_s"] / status["end_time_s"])
 
     def command(self, sweep):
+        if self.can_be_resumed():
+            return [sweep.crackle, "run", "--resume", str(self.folder), "-q", "-j", str(sweep.threads)]
         words = [sweep.crackle, "run", str(sweep.case), "-o", str(self.folder), "-q", "-j", str(sweep.threads)]
         for key, text in self.overrides.items():
             words += ["--seed", text] if key == "seed" else ["--set", f"{key}={text}"]

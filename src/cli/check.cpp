@@ -21,6 +21,7 @@
 #include "quasi_static_scene.hpp"
 #include "regime.hpp"
 #include "scene.hpp"
+#include "threads.hpp"
 
 namespace crackle {
 namespace {
@@ -102,7 +103,7 @@ int check_command(const CheckOptions& options) {
   const RegimeChoice regime = choose_regime(load_case(options.case_file, options.overrides, options.seed));
   const Case& scene = regime.scene;
   require_memory(scene);
-  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  const int threads = require_threads(options.threads);
   omp_set_num_threads(threads);
 
   fmt::print("crackle {}: {}\n", version, scene.title.empty() ? options.case_file : scene.title);

@@ -107,9 +107,10 @@ std::string without_comments(const std::string& text) {
   return kept;
 }
 
-std::vector<Column> field_time_columns(quasi_static::State& state, FieldTimeMemory& memory) {
-  std::vector<Column> all = columns_of(state, "state");
-  for (const Column& column : columns_of(memory, "run")) all.push_back(column);
+std::vector<Column> field_time_columns(Mesh& mesh, quasi_static::State& state, FieldTimeMemory& memory) {
+  std::vector<Column> all;
+  for (auto&& columns : {columns_of(mesh, "mesh"), columns_of(state, "state"), columns_of(memory, "run")})
+    all.insert(all.end(), columns.begin(), columns.end());
   return all;
 }
 
@@ -165,14 +166,17 @@ RunSnapshot take_up(RunFolder& folder, const std::string& text,
   return run;
 }
 
-std::string pack_field_time(quasi_static::State state, FieldTimeMemory memory, const std::string& text) {
-  return pack_checkpoint({version, memory.tally.steps, state.time}, field_time_columns(state, memory), text);
+std::string pack_field_time(const Mesh& mesh, quasi_static::State state, FieldTimeMemory memory,
+                            const std::string& text) {
+  Mesh& read = const_cast<Mesh&>(mesh);  // NOLINT(cppcoreguidelines-pro-type-const-cast): as in pack_run()
+  return pack_checkpoint({version, memory.tally.steps, state.time}, field_time_columns(read, state, memory),
+                         text);
 }
 
 bool take_up_field_time(RunFolder& folder, const std::string& text,
-                        const std::function<void(const std::string&)>& say, quasi_static::State& state,
-                        FieldTimeMemory& memory) {
-  return read_newest(folder, text, say, field_time_columns(state, memory), memory.folder, state.time);
+                        const std::function<void(const std::string&)>& say, Mesh& mesh,
+                        quasi_static::State& state, FieldTimeMemory& memory) {
+  return read_newest(folder, text, say, field_time_columns(mesh, state, memory), memory.folder, state.time);
 }
 
 }  // namespace crackle

@@ -59,11 +59,12 @@ struct FieldTimeMemory {
   FolderMarks folder;
 };
 
-/// The same two for a run in field time, whose mesh follows from its case.
-std::string pack_field_time(quasi_static::State state, FieldTimeMemory memory, const std::string& text);
+/// The same two for a run in field time.
+std::string pack_field_time(const Mesh& mesh, quasi_static::State state, FieldTimeMemory memory,
+                            const std::string& text);
 /// @return false where there is no checkpoint yet
 bool take_up_field_time(RunFolder& folder, const std::string& text,
-                        const std::function<void(const std::string&)>& say, quasi_static::State& state,
-                        FieldTimeMemory& memory);
+                        const std::function<void(const std::string&)>& say, Mesh& mesh,
+                        quasi_static::State& state, FieldTimeMemory& memory);
 
 }  // namespace crackle

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +11,7 @@ namespace crackle {
 struct CaseOptions {
   std::string case_file;
   std::vector<std::string> overrides;  ///< --set table.key=value
-  std::optional<std::uint64_t> seed;   ///< of the mesh
+  std::optional<std::string> seed;     ///< of the mesh
 };
 
 struct RunOptions : CaseOptions {

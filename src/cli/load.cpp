@@ -22,8 +22,7 @@ CaseNames registered_names() {
   return names;
 }
 
-Case load_case(const std::string& file, std::vector<std::string> overrides,
-               std::optional<std::uint64_t> seed) {
+Case load_case(const std::string& file, std::vector<std::string> overrides, std::optional<std::string> seed) {
   if (seed) overrides.push_back(fmt::format("mesh.seed={}", *seed));
   Case scene = read_case(file, overrides, registered_names());
   for (const std::string& name : scene.output.fields) {

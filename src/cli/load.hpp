@@ -16,8 +16,7 @@ namespace crackle {
 CaseNames registered_names();
 
 /// The case of a file, with what the command line says on top. @throws CaseError
-Case load_case(const std::string& file, std::vector<std::string> overrides,
-               std::optional<std::uint64_t> seed);
+Case load_case(const std::string& file, std::vector<std::string> overrides, std::optional<std::string> seed);
 
 /// A quantity given on the command line: a number in SI, or a text with a unit ("3 mm").
 /// @param option names it in messages @throws CaseError

@@ -76,6 +76,10 @@ void check(const Case& scene) {
           "fluid.flow = \"" + scene.fluid.flow + "\" needs a fluid.viscosity above 0");
   require(!scene.fluid.pump.empty(), "give a [[fluid.pump]]");
   require(scene.stress_gradient == Sym2{}, "stress gradients are not yet taken");
+  require(
+      confinement(scene) >= 0.0,
+      fmt::format("an effective tension of {:.3g} MPa across the fracture would drive it on without fluid",
+                  -1e-6 * confinement(scene)));
   if (is_straight(scene)) {
     require(asymmetry(scene).empty(), "fracture.path = \"straight\" cannot be: " + asymmetry(scene));
     require(scene.mesh.fine_radius > scene.fracture.notch + scene.mesh.size_fine,

@@ -29,6 +29,7 @@
 #include "signals.hpp"
 #include "status.hpp"
 #include "tally.hpp"
+#include "threads.hpp"
 
 namespace crackle {
 namespace {
@@ -75,7 +76,7 @@ class Run {
         scene_(scene),
         folder_(folder),
         status_(status),
-        threads_(options.threads > 0 ? options.threads : omp_get_num_procs()),
+        threads_(require_threads(options.threads)),
         tally_(scene.run.end_time),
         history_(scene.output.history_every),
         fields_(scene.output.fields_every),

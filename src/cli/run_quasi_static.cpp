@@ -198,8 +198,14 @@ class FieldTimeRun {
 
   void begin() {
     NetworkReport network;
-    const QuasiStaticScene stage = make_quasi_static_scene(
-        scene_, std::make_shared<const Mesh>(make_quasi_static_mesh(scene_, &network)));
+    auto mesh = std::make_shared<Mesh>();
+    quasi_static::State state;
+    const bool resumed =
+        !options_.resume.empty() &&
+        take_up_field_time(
+            folder_, text_, [&](const std::string& line) { say(line); }, *mesh, state, memory_);
+    if (!resumed) *mesh = make_quasi_static_mesh(scene_, &network);
+    const QuasiStaticScene stage = make_quasi_static_scene(scene_, mesh);
     triangles_ = stage.mesh->triangle_count();
     say("mesh: " + quasi_static_mesh_text(scene_, stage));
     if (network.joints > 0) say(network_text(network));
@@ -210,10 +216,6 @@ class FieldTimeRun {
       require_disk(scene_, triangles_, output, folder_.path());
     }
     say(needs_text(scene_, triangles_, output));
-    quasi_static::State state;
-    const bool resumed = !options_.resume.empty() &&
-                         take_up_field_time(
-                             folder_, text_, [&](const std::string& line) { say(line); }, state, memory_);
     stage_ = resumed ? std::make_unique<QuasiStatic>(stage, std::move(state))
                      : std::make_unique<QuasiStatic>(stage);
     row_ = stage_->row();
@@ -260,7 +262,8 @@ class FieldTimeRun {
   void write_checkpoint() {
     FieldTimeMemory memory = memory_now();
     memory.folder = folder_.marks();
-    folder_.write_checkpoint(pack_field_time(stage_->state(), std::move(memory), text_));
+    folder_.write_checkpoint(
+        pack_field_time(*stage_->scene().mesh, stage_->state(), std::move(memory), text_));
     last_checkpoint_ = Clock::now();
   }
 

@@ -165,8 +165,8 @@ std::string read_text(hid_t file, const std::string& name) {
   const Handle set(H5Dopen2(file, text_name, H5P_DEFAULT), H5Dclose);
   if (set < 0) refuse(name, "there is no case in it");
   const Handle type(H5Dget_type(set), H5Tclose);
-  std::string text(H5Tget_size(type), '\0');
-  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+  std::string text(std::min(H5Tget_size(type), static_cast<std::size_t>(H5Dget_storage_size(set))), '\0');
+  if (text.size() != H5Tget_size(type) || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     refuse(name, "its case cannot be read");
   text.resize(std::min(text.size(), text.find('\0')));
   return text;

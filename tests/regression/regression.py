@@ -79,13 +79,29 @@ def differences(case, scalars):
     return lines, worst
 
 
+def not_guarded():
+    """One line for each folder of cases without a smoke variant, and for each file of scalars without its case.
+    Folders of a chart have points.csv instead, and a stage of CI of their own."""
+    lines = []
+    for folder in sorted(path for path in (ROOT / "cases").iterdir() if path.is_dir()):
+        if not list(folder.glob("smoke*.toml")) and not (folder / "points.csv").exists():
+            lines.append(f"cases/{folder.name} has no smoke variant")
+    for path in sorted(pathlib.Path(__file__).parent.glob("*/*.csv")):
+        if not (ROOT / "cases" / path.parent.name / f"{path.stem}.toml").exists():
+            lines.append(f"{path.relative_to(ROOT)} is of no case")
+    return lines
+
+
 def main():
     parser = argparse.ArgumentParser(prog="regression.py", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--renew", action="store_true", help="write down the scalars of now")
+    parser.add_argument("--cover", action="store_true", help="only see whether every case is guarded")
     parser.add_argument("--crackle", default=ROOT / "build/src/cli/crackle", help="the program (that in build/)")
     parser.add_argument("case", nargs="*", type=pathlib.Path, help="case files (default: cases/*/smoke*.toml)")
     options = parser.parse_args()
+    if options.cover:
+        sys.exit("\n".join(not_guarded()) or None)
     cases = [case.resolve() for case in options.case] or sorted(ROOT.glob("cases/*/smoke*.toml"))
     failed = False
     for case in cases:

@@ -146,32 +146,33 @@ class DamagedCheckpoint : public testing::Test {
     kept_ = keep(simulation);
     bytes_ = pack(kept_);
   }
-  void expect_refused(const std::string& bytes, const std::string& why) {
+  // @param fault names it in the table of faults
+  void expect_refused(const char* fault, const std::string& bytes, const std::string& why) {
     Kept untouched;
     EXPECT_THAT([&] { unpack_checkpoint(bytes, "file.h5", untouched.columns()); },
                 ThrowsMessage<CaseError>(testing::AllOf(testing::StartsWith("file.h5: "), HasSubstr(why))));
     EXPECT_EQ(untouched.state.step, 0);
     EXPECT_TRUE(untouched.mesh.vertices.empty());
-    crackle_test::report_faults("checkpoint cut short, foreign, of another format, with other columns", 1,
-                                crackle_test::Left::refused);
+    crackle_test::report_faults("what is no checkpoint of this crackle", 1, crackle_test::Left::refused,
+                                fault);
   }
   Kept kept_;
   std::string bytes_;
 };
 
 TEST_F(DamagedCheckpoint, Foreign) {
-  expect_refused("", "not a checkpoint of crackle");
-  expect_refused("\x89HDF\r\n\x1a\n" + std::string(1000, '\0'), "not a checkpoint of crackle");
-  expect_refused("time_s,time_step_s\n", "not a checkpoint of crackle");
-  expect_refused("crackle checkpoint\nformat 1\n", "cut short");
+  expect_refused("foreign", "", "not a checkpoint of crackle");
+  expect_refused("foreign", "\x89HDF\r\n\x1a\n" + std::string(1000, '\0'), "not a checkpoint of crackle");
+  expect_refused("foreign", "time_s,time_step_s\n", "not a checkpoint of crackle");
+  expect_refused("foreign", "crackle checkpoint\nformat 1\n", "cut short");
 }
 
 TEST_F(DamagedCheckpoint, CutShortAnywhere) {
   for (const std::size_t size : {std::size_t{20}, std::size_t{511}, std::size_t{512}, std::size_t{513},
                                  bytes_.size() / 2, bytes_.size() - 1}) {
-    expect_refused(bytes_.substr(0, size), "cut short");
+    expect_refused("cut short or too long", bytes_.substr(0, size), "cut short");
   }
-  expect_refused(bytes_ + '\0', "bytes long instead of");
+  expect_refused("cut short or too long", bytes_ + '\0', "bytes long instead of");
 }
 
 TEST_F(DamagedCheckpoint, AnyBitFlipped) {
@@ -190,25 +191,27 @@ TEST_F(DamagedCheckpoint, AnyBitFlipped) {
       ++refused;
     }
   }
-  crackle_test::report_faults("bit flipped in a checkpoint, head or data", refused,
+  crackle_test::report_faults("bits flipped in a checkpoint, head and data", refused,
                               crackle_test::Left::refused);
 }
 
 TEST_F(DamagedCheckpoint, OfAnotherFormat) {
   std::string other = bytes_;
   other.replace(other.find("format 1"), 8, "format 7");
-  expect_refused(other, "a checkpoint of format 7 (crackle 1.2.3), this crackle reads format 1");
+  expect_refused("of another format", other,
+                 "a checkpoint of format 7 (crackle 1.2.3), this crackle reads format 1");
 }
 
 TEST_F(DamagedCheckpoint, OfACrackleThatKeepsOtherNumbers) {
   std::vector<Column> fewer = kept_.columns();
   std::erase_if(fewer, [](const Column& c) { return c.name == "state/cohesive/offset"; });
-  expect_refused(pack_checkpoint({"1.2.3", 1, 0.0}, fewer, "case"), "state/cohesive/offset is not in it");
+  expect_refused("with other columns", pack_checkpoint({"1.2.3", 1, 0.0}, fewer, "case"),
+                 "state/cohesive/offset is not in it");
   std::vector<Column> wider = kept_.columns();
   for (Column& c : wider) {
     if (c.name == "state/cohesive/edge") c.number = Number::uint8;
   }
-  expect_refused(pack_checkpoint({"1.2.3", 1, 0.0}, wider, "case"),
+  expect_refused("with other columns", pack_checkpoint({"1.2.3", 1, 0.0}, wider, "case"),
                  "state/cohesive/edge holds other numbers");
 }
 

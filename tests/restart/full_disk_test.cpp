@@ -20,24 +20,16 @@ using testing::HasSubstr;
 
 class FullDisk : public CliTest {
  protected:
-  FullDisk() { write("case.toml", good_case); }
+  FullDisk() : case_(write("case.toml", good_case)) {}
   ~FullDisk() override {
     if (mounted_) umount2(disk().c_str(), MNT_DETACH);
   }
 
   std::string disk() const { return path("disk"); }
   std::vector<std::string> arguments(const std::string& folder) const {
-    return {"run",
-            path("case.toml"),
-            "-q",
-            "-j",
-            "1",
-            "-o",
-            folder,
-            "--set",
-            "run.end_time=0.7 ms",
-            "--set",
-            "output.checkpoint_every=20 ms"};  // of wall-clock time
+    std::vector<std::string> all{"run", case_, "-q", "-j", "1", "-o", folder};
+    all.insert(all.end(), settings_.begin(), settings_.end());
+    return all;
   }
   Outcome run(const std::string& folder, const std::function<void()>& prepare = {}) {
     return Process(arguments(folder), path("process"), prepare).wait();
@@ -45,6 +37,9 @@ class FullDisk : public CliTest {
   Outcome resume(const std::string& folder) {
     return Process({"run", "--resume", folder, "-q", "-j", "1"}, path("process")).wait();
   }
+  // Fills the disk while the run goes on, makes room again and resumes it.
+  // @param scene names it in the table of faults
+  void fill_and_go_on(const char* scene);
   // A disk of its own for this test. @return false where that is not allowed
   bool mount_disk(const char* size) {
     if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0)
@@ -57,6 +52,10 @@ class FullDisk : public CliTest {
     return mount("tmpfs", disk().c_str(), "tmpfs", MS_REMOUNT | flags, size) == 0;
   }
 
+  std::string case_;
+  std::vector<std::string> settings_{"--set", "run.end_time=0.7 ms",             //
+                                     "--set", "output.checkpoint_every=20 ms"};  // of wall-clock time
+
  private:
   bool mounted_ = false;
 };
@@ -65,8 +64,7 @@ void expect_refusal_to_write(const Outcome& outcome, const std::string& reason) 
   expect_refusal(outcome, 2, "cannot write: " + reason);
 }
 
-TEST_F(FullDisk, StopsTheRunWhichGoesOnWhenThereIsRoom) {
-  if (!mount_disk("size=20m")) GTEST_SKIP() << "no right to mount";
+void FullDisk::fill_and_go_on(const char* scene) {
   ASSERT_EQ(run(path("whole")).code, 0);
   const std::string folder = disk() + "/run", other = disk() + "/other";
   Process process(arguments(folder), path("process"));
@@ -81,7 +79,20 @@ TEST_F(FullDisk, StopsTheRunWhichGoesOnWhenThereIsRoom) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(read_text(folder + "/run.log"), HasSubstr("resumed from checkpoint"));
   expect_same_results(folder, path("whole"));
-  report_faults("disk full (a tmpfs that another file fills); resumed", 1, Left::survived);
+  report_faults("disk full (a tmpfs that another file fills); resumed", 1, Left::survived, scene);
+}
+
+TEST_F(FullDisk, StopsTheRunWhichGoesOnWhenThereIsRoom) {
+  if (!mount_disk("size=20m")) GTEST_SKIP() << "no right to mount";
+  fill_and_go_on("elements on all edges");
+}
+
+TEST_F(FullDisk, InFieldTime) {
+  if (!mount_disk("size=20m")) GTEST_SKIP() << "no right to mount";
+  case_ = std::string(CRACKLE_SOURCE_DIR) + "/cases/kgd/smoke.toml";
+  settings_ = {"--set", "run.end_time=10 s",           "--set", "output.fields_every=0.5 s",
+               "--set", "output.checkpoint_every=5 ms"};
+  fill_and_go_on("field time");
 }
 
 TEST_F(FullDisk, IsSeenBeforeTheRunStarts) {

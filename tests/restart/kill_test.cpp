@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Killed (SIGKILL) at 30 random instants, most of them while something is being written, and resumed
-// each time: what is left in the end is what an undisturbed run leaves.
+// Killed (SIGKILL) at random instants, 30 of them of one scene, most of them while something is being
+// written, and resumed each time: what is left in the end is what an undisturbed run leaves.
 #include <csignal>
 #include <random>
 
@@ -23,35 +23,56 @@ bool unfinished_file_below(const std::string& folder) {
 class Kill : public CliTest {
  protected:
   // Kills runs of a case, each resumed until it is done, at so many random instants in all.
-  void kill_and_resume(const std::vector<std::string>& case_and_settings, int times);
+  // @param scene names it in the table of faults
+  void kill_and_resume(const char* scene, const std::vector<std::string>& case_and_settings, int times);
 };
 
 TEST_F(Kill, ThirtyTimes) {
   // a checkpoint every 2 ms of wall-clock time: nearly always
-  kill_and_resume({write("case.toml", good_case), "--set", "run.end_time=0.7 ms", "--set",
+  kill_and_resume("elements on all edges",
+                  {write("case.toml", good_case), "--set", "run.end_time=0.7 ms", "--set",
                    "output.checkpoint_every=2 ms"},
                   30);
 }
 
 TEST_F(Kill, WithSmearedDamage) {
-  kill_and_resume({write("case.toml", good_case), "--set", "run.end_time=0.6 ms", "--set",
+  kill_and_resume("smeared damage",
+                  {write("case.toml", good_case), "--set", "run.end_time=0.6 ms", "--set",
                    "output.checkpoint_every=2 ms", "--set", "cohesive.insertion=none"},
                   6);
 }
 
+// Three layers with bedding along them, a slit under pressure, elements on demand.
+TEST_F(Kill, LayeredAndBedded) {
+  kill_and_resume("layered and bedded",
+                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/layered_block/smoke.toml", "--set",
+                   "rock.tensile_strength_bedding=3 MPa", "--set", "rock.cohesion_bedding=15 MPa", "--set",
+                   "output.fields_every=20 us", "--set", "output.checkpoint_every=2 ms"},
+                  6);
+}
+
+TEST_F(Kill, DamageInLayers) {
+  kill_and_resume("smeared damage in layers",
+                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/layered_block/smoke_damage.toml", "--set",
+                   "output.fields_every=20 us", "--set", "output.checkpoint_every=2 ms"},
+                  6);
+}
+
 TEST_F(Kill, InFieldTime) {
-  kill_and_resume({std::string(CRACKLE_SOURCE_DIR) + "/cases/dfit_teaching/smoke.toml", "--set",
+  kill_and_resume("field time",
+                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/dfit_teaching/smoke.toml", "--set",
                    "output.checkpoint_every=2 ms"},
                   12);
 }
 
 TEST_F(Kill, LoadedNotchedBeam) {
-  kill_and_resume({std::string(CRACKLE_SOURCE_DIR) + "/cases/three_point_bending/smoke.toml", "--set",
+  kill_and_resume("loaded beam",
+                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/three_point_bending/smoke.toml", "--set",
                    "output.checkpoint_every=1 ms"},
                   6);
 }
 
-void Kill::kill_and_resume(const std::vector<std::string>& case_and_settings, int times) {
+void Kill::kill_and_resume(const char* scene, const std::vector<std::string>& case_and_settings, int times) {
   const auto arguments = [&](const std::string& folder) {
     std::vector<std::string> all{"run"};
     all.insert(all.end(), case_and_settings.begin(), case_and_settings.end());
@@ -99,7 +120,7 @@ void Kill::kill_and_resume(const std::vector<std::string>& case_and_settings, in
       "%d kills in %d runs, %d before the first checkpoint, %d with a file half written; lost: nothing\n",
       kills, runs, before_first_checkpoint, while_writing);
   EXPECT_TRUE(while_writing > 0 || times < 30);
-  report_faults("SIGKILL at random instants, also while a file is written; resumed", kills, Left::survived);
+  report_faults("SIGKILL at random instants, some with a file half written", kills, Left::survived, scene);
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+constexpr const char* sigterm = "SIGTERM while it breaks or grows; resumed with 1 and 2 threads";
+constexpr const char* unusable = "no checkpoint that can be used";
+
 class Resume : public CliTest {
  protected:
   Resume() { write("case.toml", good_case); }
@@ -79,7 +82,7 @@ TEST_F(Resume, LeavesTheSameBytes) {
   EXPECT_EQ(interrupted_resume("parts", 17, "1").code, 75);
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
-  report_faults("SIGTERM while it breaks or grows; resumed", 3, Left::survived);
+  report_faults(sigterm, 3, Left::survived, "elements on all edges");
 }
 
 TEST_F(Resume, LeavesTheSameBytesWithSmearedDamage) {
@@ -90,6 +93,7 @@ TEST_F(Resume, LeavesTheSameBytesWithSmearedDamage) {
   EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 2) << "it breaks already";
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
+  report_faults(sigterm, 1, Left::survived, "smeared damage");
 }
 
 // While it still meshes, settles or climbs the ramp: at the first instant at which there is a run.
@@ -106,7 +110,7 @@ TEST_F(Resume, StoppedBeforeTheFirstStep) {
     EXPECT_EQ(process.wait().code, 75);
     EXPECT_EQ(resume(parts).code, 0);
     expect_same_results(path(parts), path(whole));
-    report_faults("SIGTERM before the first step; resumed", 1, Left::survived);
+    report_faults("SIGTERM before the first step; resumed", 1, Left::survived, insertion);
   }
 }
 
@@ -126,7 +130,7 @@ TEST_F(Resume, LeavesTheSameBytesOfALoadedNotchedBeam) {
     EXPECT_EQ(interrupted_resume("parts_" + variant, 4, "2").code, 75);
     EXPECT_EQ(resume("parts_" + variant).code, 0);
     expect_same_results(path("parts_" + variant), path("whole_" + variant));
-    report_faults("SIGTERM while it breaks or grows; resumed", 2, Left::survived);
+    report_faults(sigterm, 2, Left::survived, "loaded beam");
   }
 }
 
@@ -136,7 +140,7 @@ TEST_F(Resume, LeavesTheSameBytesWithElementsOnDemand) {
   EXPECT_EQ(interrupted_run("parts", 15, on_demand).code, 75);
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
-  report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
+  report_faults(sigterm, 1, Left::survived, "on demand");
 }
 
 TEST_F(Resume, LeavesTheSameBytesWithViscousFlow) {
@@ -147,7 +151,7 @@ TEST_F(Resume, LeavesTheSameBytesWithViscousFlow) {
   EXPECT_EQ(interrupted_run("parts", 15, viscous).code, 75);
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
-  report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
+  report_faults(sigterm, 1, Left::survived, "viscous flow");
 }
 
 // Layers of other density, stiffness, strength and stress, one with an interface that may part.
@@ -175,7 +179,7 @@ interface_fracture_energy_mode2 = "20 J/m2"
     EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 2) << "it breaks already";
     EXPECT_EQ(resume(parts, "2").code, 0);
     expect_same_results(path(parts), path(whole));
-    report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
+    report_faults(sigterm, 1, Left::survived, "layers");
   }
 }
 
@@ -185,7 +189,7 @@ TEST_F(Resume, LeavesTheSameBytesWithAnAbsorbingBoundary) {
   EXPECT_EQ(interrupted_run("parts", 15, absorbing).code, 75);
   EXPECT_EQ(resume("parts").code, 0);
   expect_same_results(path("parts"), path("whole"));
-  report_faults("SIGTERM while it breaks or grows; resumed", 1, Left::survived);
+  report_faults(sigterm, 1, Left::survived, "absorbing boundary");
 }
 
 // In field time, while it grows and leaks by diffusion; any number of threads.
@@ -225,7 +229,31 @@ TEST_F(Resume, LeavesTheSameBytesInFieldTime) {
   EXPECT_EQ(interrupted_resume("parts", 6, "2").code, 75);
   EXPECT_EQ(resume("parts").code, 0);
   expect_same_results(path("parts"), path("whole"));
-  report_faults("SIGTERM while it breaks or grows; resumed", 2, Left::survived);
+  report_faults(sigterm, 2, Left::survived, "field time");
+}
+
+// The mesh is in the checkpoint: the file of joints may be another by then.
+TEST_F(Resume, LeavesTheSameBytesInFieldTimeWhereTheJointsFileHasChanged) {
+  write("joints.csv", "x1_m,y1_m,x2_m,y2_m\n2.5,-1,2.5,4\n");
+  write("case.toml", "include = \"" + std::string(CRACKLE_SOURCE_DIR) + R"(/cases/free_paths/free_paths.toml"
+[domain]
+width = "40 m"
+height = "40 m"
+[mesh]
+size_fine = "0.5 m"
+fine_radius = "4 m"
+size_coarse = "4 m"
+[[joint_sets]]
+file = "joints.csv"
+residual_friction_angle = "42 deg"
+)");
+  const std::vector<std::string> how{"--set", "run.end_time=3 s", "--set", "output.fields_every=0.5 s"};
+  ASSERT_EQ(run("whole", how).code, 0);
+  EXPECT_EQ(interrupted_run("parts", 2, how).code, 75);
+  write("joints.csv", "x1_m,y1_m,x2_m,y2_m\n2.2,-1,2.9,3\n");
+  EXPECT_EQ(resume("parts").code, 0);
+  expect_same_results(path("parts"), path("whole"));
+  report_faults("file of joints changed since; resumed", 1, Left::survived);
 }
 
 // Joints that slide and break while the run is interrupted, three times, with the fluid in some of them.
@@ -268,7 +296,7 @@ residual_friction_angle = "10 deg"
   expect_slips_under_way("checkpoint_a.h5");
   EXPECT_EQ(resume("parts", "2").code, 0);
   expect_same_results(path("parts"), path("whole"));
-  report_faults("SIGTERM while it breaks or grows; resumed", 3, Left::survived);
+  report_faults(sigterm, 3, Left::survived, "joints");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ResumeWithJoints,
@@ -323,7 +351,7 @@ TEST_F(Resume, RefusesWhereNoCheckpointCanBeUsed) {
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("checkpoint_a.h5: it is damaged"),
                                           HasSubstr("checkpoint_b.h5: it is 1000 bytes long instead of")));
   EXPECT_EQ(results(path("out")), before);
-  report_faults("both checkpoints damaged", 1, Left::refused);
+  report_faults(unusable, 1, Left::refused, "both damaged");
 }
 
 TEST_F(Resume, RefusesACheckpointOfAnotherCase) {
@@ -333,7 +361,7 @@ TEST_F(Resume, RefusesACheckpointOfAnotherCase) {
   ASSERT_NE(at, std::string::npos);
   write("out/resolved.toml", resolved.replace(at, 14, "density = 2600"));
   expect_refusal(resume("out"), 2, "it is of another case than resolved.toml");
-  report_faults("checkpoint of another case", 1, Left::refused);
+  report_faults(unusable, 1, Left::refused, "of another case");
 }
 
 TEST_F(Resume, RefusesWhereTheTablesWereCut) {
@@ -341,7 +369,7 @@ TEST_F(Resume, RefusesWhereTheTablesWereCut) {
   fs::resize_file(path("out/history.csv"), 100);
   expect_refusal(resume("out"), 2,
                  "history.csv or events.csv is shorter than when checkpoint_a.h5 was written");
-  report_faults("history.csv cut short before the checkpoint", 1, Left::refused);
+  report_faults(unusable, 1, Left::refused, "history.csv cut short before it");
 }
 
 TEST_F(Resume, RefusesWhatIsNoRun) {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ten runs on this machine by Snakemake: one is killed, seen, and run again alone; the results are gathered."""
+"""Ten runs on this machine by Snakemake: one is killed, seen, and resumed alone; the results are gathered."""
 
 import os
 import shutil
@@ -19,6 +19,8 @@ check("10 waiting" in sweep("status", tiny.folder), "nothing has run yet")
 first = subprocess.Popen(["/usr/bin/python3", str(SWEEP), "local", str(tiny.folder), "--cores", "2"],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 tiny.wait_for(LONG_RUN, ("running", "done"))
+os.kill(tiny.status(LONG_RUN)["process"], signal.SIGUSR1)
+tiny.wait_for_file(LONG_RUN, "checkpoint_a.h5")
 os.kill(tiny.status(LONG_RUN)["process"], signal.SIGSTOP)  # it would end before it is asked about
 check(f"{LONG_RUN}: running" in sweep("status", tiny.folder), "it is seen to run")
 check("under way" in sweep("row", tiny.folder, LONG_RUN, code=1), "and is not run twice at a time")
@@ -30,6 +32,8 @@ check(f"{LONG_RUN}: killed" in sweep("status", tiny.folder), "and named")
 before = tiny.starts()
 check("10 done" in sweep("local", tiny.folder, "--cores", "2"), "all done")
 tiny.check_resumed(before)
+check("resumed from checkpoint_a.h5" in (tiny.folder / f"runs/{LONG_RUN}/run.log").read_text(encoding="utf-8"),
+      "it went on from its checkpoint")
 sweep("local", tiny.folder)
 check(tiny.starts().items() >= before.items(), "nothing is run a third time")
 tiny.check_gathered()
@@ -39,4 +43,4 @@ table = tiny.folder / "table.csv"
 table.write_text(table.read_text(encoding="utf-8").replace("-4.5 MPa", "-4.6 MPa"), encoding="utf-8")
 check("1 waiting" in sweep("status", tiny.folder), "a changed row waits")
 check("no row" in sweep("row", tiny.folder, "011", code=1), "unknown rows are refused")
-print("ten runs, one killed and run again alone")
+print("ten runs, one killed and resumed alone")

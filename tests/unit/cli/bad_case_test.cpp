@@ -91,5 +91,29 @@ TEST_F(BadCase, BadOverride) {
   expect_refusal(crackle({"check", "--set", "rock.densty=1", file}), 2, "density");
 }
 
+TEST_F(BadCase, NumbersOfTheCommandLine) {
+  const string file = write("good.toml", good_case);
+  for (const char* seed : {"-1", "1.5", "1e3", "nan", "99999999999999999999", "x"})
+    expect_refusal(crackle({"check", file, string("--seed=") + seed}), 2, "mesh.seed");
+  for (const char* threads : {"0", "-1", "1025", "1.5", "99999999999999999999", "x"})
+    expect_refusal(crackle({"run", file, "-q", "-o", path("out"), "-j", threads}), 2, "--threads");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+// Files of other systems and places with other letters.
+TEST_F(BadCase, IsNotOneForItsLettersOrLines) {
+  string lines = good_case;
+  for (std::size_t at = 0; (at = lines.find('\n', at)) != string::npos; at += 2) lines.replace(at, 1, "\r\n");
+  std::filesystem::create_directory(path("düne 岩石"));
+  ASSERT_EQ(crackle({"mesh", write("good.toml", good_case), "-o", path("good.msh")}).code, 0);
+  const string mesh = read_text(path("good.msh"));
+  for (const string& text : {lines, "\xef\xbb\xbf" + string(good_case)}) {
+    const string file = write("düne 岩石/fälle è.toml", text), out = path("düne 岩石/netz.msh");
+    EXPECT_EQ(crackle({"mesh", file, "-o", out}).code, 0);
+    EXPECT_EQ(read_text(out), mesh);
+    std::filesystem::remove(out);
+  }
+}
+
 }  // namespace
 }  // namespace crackle_test

@@ -3,6 +3,9 @@
 // What a case leaves open is chosen by numbers that `crackle check` prints, and each choice can be forced.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
+#include "../../fault.hpp"
 #include "binary.hpp"
 
 namespace crackle_test {
@@ -10,19 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-class Regime : public CliTest {
- protected:
-  /// What check says of a coarse KGD fracture (K_m = 7.2 by its viscosity) with settings.
-  std::string said(std::vector<std::string> settings) const {
-    std::vector<std::string> arguments{"check", write("kgd.toml", kgd)};
-    for (const std::string& setting : settings) {
-      arguments.push_back("--set");
-      arguments.push_back(setting);
-    }
-    const Outcome outcome = crackle(arguments);
-    return outcome.out;
-  }
-  static constexpr const char* kgd = R"(
+// A coarse KGD fracture, K_m = 7.2 by its viscosity.
+constexpr const char* kgd = R"(
 [domain]
 width = "120 m"
 height = "120 m"
@@ -52,6 +44,19 @@ notch = "2 m"
 [run]
 end_time = "100 s"
 )";
+
+class Regime : public CliTest {
+ protected:
+  /// What check says of the fracture with settings.
+  std::string said(std::vector<std::string> settings) const {
+    std::vector<std::string> arguments{"check", write("kgd.toml", kgd)};
+    for (const std::string& setting : settings) {
+      arguments.push_back("--set");
+      arguments.push_back(setting);
+    }
+    const Outcome outcome = crackle(arguments);
+    return outcome.out;
+  }
 };
 
 TEST_F(Regime, QuasiStaticWhereInertiaIsPast) {
@@ -84,6 +89,57 @@ TEST_F(Regime, LeakOffByWhatWouldLeak) {
   EXPECT_THAT(with({"rock.permeability=1e-20 m2", "run.end_time=1e5 s"}), HasSubstr("leak-off: diffusion ("));
   EXPECT_THAT(with({"rock.permeability=1e-20 m2", "fluid.leak_off=none"}),
               HasSubstr("leak-off: none, as fluid.leak_off says"));
+}
+
+// What field time does not take is refused with the reason, by run and check alike.
+struct Untaken {
+  const char* name;
+  const char* text;      ///< after the case
+  const char* settings;  ///< of --set, a blank between
+  const char* reason;
+};
+void PrintTo(const Untaken& scene, std::ostream* stream) { *stream << scene.name; }
+
+const std::vector<Untaken> untaken{
+    {"NoFracture", "", "run.regime=quasi_static fracture.notch=0 wellbore.diameter=4",
+     "it starts from a fracture: give fracture.notch"},
+    {"Layers", "[[layers]]\nbottom = 10\nyoung_modulus = 2e10\n", "", "layers are not yet taken"},
+    {"Notches", "[[notches]]\nx1 = 5\ny1 = 0\nx2 = 9\ny2 = 0\n", "", "[[notches]] are not yet taken"},
+    {"Loads", "[[loads]]\nside = \"top\"\ntraction_y = -1e6\n[boundary]\nouter = \"free\"\n", "",
+     "[[loads]] are not yet taken"},
+    {"StrengthsAlongTheBedding", "", "rock.tensile_strength_bedding=1e6",
+     "along the bedding are not yet taken"},
+    {"SmearedDamage", "", "cohesive.insertion=none", "cohesive.insertion = \"none\" has none"},
+    {"ViscousFlowWithoutViscosity", "", "fluid.flow=viscous fluid.viscosity=0",
+     "needs a fluid.viscosity above 0"},
+    {"Tension", "", "stress.yy=1e6", "an effective tension of 1 MPa across the fracture"},
+    {"StressGradient", "", "stress.gradient_xx=1e4", "stress gradients are not yet taken"},
+    {"StraightPathAtAnAngle", "", "fracture.path=straight fracture.angle=0.1", "\"straight\" cannot be"},
+    {"PathThatEndsInTheNotch", "", "mesh.fine_radius=2.5", "it has to be above fracture.notch"},
+    {"BondedJoint",
+     "[[joints]]\nx1 = 4\ny1 = -2\nx2 = 4\ny2 = 2\nlaw = \"bonded\"\ntensile_strength = 1e6\ncohesion = 1e6\n"
+     "friction_angle = 0.5\nfracture_energy_mode1 = 1\nfracture_energy_mode2 = 1\n",
+     "", "bonded joints are not yet taken"},
+};
+
+class FieldTimeRefusal : public CliTest, public testing::WithParamInterface<Untaken> {};
+INSTANTIATE_TEST_SUITE_P(Of, FieldTimeRefusal, testing::ValuesIn(untaken),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_P(FieldTimeRefusal, SaysWhatIsNotTaken) {
+  const std::string file = write("bad.toml", std::string(kgd) + GetParam().text);
+  std::vector<std::string> settings;
+  std::stringstream words(GetParam().settings);
+  for (std::string word; words >> word;) settings.insert(settings.end(), {"--set", word});
+  for (std::vector<std::string> command :
+       {std::vector<std::string>{"check", file}, {"run", file, "-q", "-o", path("out")}}) {
+    command.insert(command.end(), settings.begin(), settings.end());
+    const Outcome outcome = crackle(command);
+    expect_refusal(outcome, 2, GetParam().reason);
+    EXPECT_THAT(outcome.err, HasSubstr("bad.toml: run.regime = \"quasi_static\": "));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("out/resolved.toml")));
+  report_faults(wrong_case, 1, Left::refused, "field time");
 }
 
 }  // namespace

@@ -112,8 +112,8 @@ TEST_P(CaseBad, IsRefusedAtItsPlace) {
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
     EXPECT_EQ(error.code(), ExitCode::bad_case);
   }
-  crackle_test::report_faults("wrong case file: its line, column and message", 1,
-                              crackle_test::Left::refused);
+  crackle_test::report_faults(crackle_test::wrong_case, 1, crackle_test::Left::refused,
+                              "key, value or relation");
 }
 
 INSTANTIATE_TEST_SUITE_P(Block, CaseBad, testing::ValuesIn(all_blocks()), test_name);
