@@ -22,4 +22,7 @@ void begin_ledger(const Equations& equations, State& state);
 /// Books a step of length dt [s] with a mean pump rate [m2/s] between two states.
 void account(const Equations& equations, const State& before, State& after, double dt, double rate);
 
+/// What does not add up in a step, over the largest energy that it turns from one form into another [-].
+double error_of_step(const Energies& before, const Energies& after);
+
 }  // namespace crackle::quasi_static
