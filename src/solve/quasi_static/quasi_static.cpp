@@ -97,15 +97,16 @@ class QuasiStatic::Solver {
         error = qs::error_of_step(state_.energies, trial.energies) / scene_.control.energy;
       }
       // What is left after a few cuts is not the step's.
+      const double suits = 0.9 / std::sqrt(std::max(error, 1e-9));  // the error of a step goes with its square
       const bool cut = error > 1.0 && too_long++ < most_cuts;
-      shorter = cut ? std::clamp(0.9 / std::sqrt(error), 0.1, 0.5) : 0.5;
+      shorter = cut ? std::clamp(suits, 0.1, 0.5) : 0.5;
       if (iterations < 0 || cut) {
         path_.truncate(edges);
         laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(edges), laws_.end());
         ++state_.rejected;
         continue;
       }
-      trial.step = dt * std::min(scene_.control.growth, 0.9 / std::sqrt(std::max(error, 1e-9)));
+      trial.step = dt * std::clamp(suits, 0.5, scene_.control.growth);
       return commit(std::move(trial), until, dt, rate, iterations);
     }
   }
