@@ -98,7 +98,7 @@ class QuasiStatic::Solver {
       }
       // What is left after a few cuts is not the step's.
       const double suits = 0.9 / std::sqrt(std::max(error, 1e-9));  // the error of a step goes with its square
-      const bool cut = error > 1.0 && too_long++ < most_cuts;
+      const bool cut = error > 1.0 && 0.1 * dt > scene_.control.smallest && too_long++ < most_cuts;
       shorter = cut ? std::clamp(suits, 0.1, 0.5) : 0.5;
       if (iterations < 0 || cut) {
         path_.truncate(edges);
