@@ -14,9 +14,14 @@ InterfaceLaw::InterfaceLaw(std::shared_ptr<const CohesiveLaw> law, double streng
   softening_ = (fracture_energy - 0.5 * strength_ * elastic_) / (strength_ * law_->softening_integral());
 }
 
+// An intact bond that is pressed is at least as stiff as one that bears nothing at first.
+double InterfaceLaw::bond_stiffness(double opening, double in_situ) const {
+  return (strength_ - (opening < 0.0 ? std::min(in_situ, 0.0) : in_situ)) / elastic_;
+}
+
 TractionSlope InterfaceLaw::traction(double opening, double max_opening, double in_situ) const {
   if (std::max(opening, max_opening) <= elastic_) {
-    const double stiffness = (strength_ - in_situ) / elastic_;
+    const double stiffness = bond_stiffness(opening, in_situ);
     return {in_situ + stiffness * opening, stiffness};
   }
   const double largest = std::max(opening, max_opening);
@@ -52,7 +57,7 @@ MixedTraction InterfaceLaw::traction(double opening, double slip, double max_ope
   MixedTraction t;
   t.plastic_slip = plastic_slip;
   if (largest <= elastic_) {
-    t.nn = (strength_ - in_situ) / elastic_;
+    t.nn = bond_stiffness(opening, in_situ);
     t.normal = in_situ + t.nn * opening;
     t.shear = in_situ_shear * (1.0 - wide / elastic_) + beta2 * strength_ / elastic_ * slip;
     t.sn = -in * in_situ_shear / elastic_;
@@ -97,7 +102,7 @@ MixedTraction InterfaceLaw::traction(double opening, double slip, double max_ope
 
 double InterfaceLaw::stored(double opening, double max_opening, double in_situ) const {
   const double largest = std::max(opening, max_opening);
-  if (largest <= elastic_) return opening * (in_situ + 0.5 * (strength_ - in_situ) / elastic_ * opening);
+  if (largest <= elastic_) return opening * (in_situ + 0.5 * bond_stiffness(opening, in_situ) * opening);
   const double d = damage(largest), wide = std::max(opening, 0.0), least = least_opening(largest);
   const double pressed = std::max(opening, least), beyond = opening - pressed;
   const TractionSlope t = closure_.traction(pressed, largest);

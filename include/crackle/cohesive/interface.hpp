@@ -2,11 +2,11 @@
 //
 // A point of a fracture's path in the quasi-static stage: effective traction t (tension positive) on
 // its faces from its opening w, with the largest opening w_m it has had.
-//   intact    w_m ≤ w_e   t = t₀ + k₀ w,  k₀ = (f − t₀)/w_e      (t₀: in-situ effective stress on it)
+//   intact    w_m ≤ w_e   t = t₀ + k₀ w,  k₀ = (f − t₀)/w_e      (t₀: effective stress on it at w = 0)
 //   loading   w = w_m     t = f z(D),  D = (w − w_e)/w_s           (z: softening of the cohesive law)
 //   unloading w < w_m     t = (w/w_m) f z(D_m) + closure of mated faces (closure.hpp)
 //   broken    D = 1       closure only
-// The intact bond carries the in-situ stress at w = 0, so nothing jumps when a point joins the path.
+// The intact bond carries at w = 0 what the rock bore, so nothing jumps when a point joins the path.
 // Where faces also slip (by s, on general paths), rock still fails by opening alone, and a bond that it holds
 // resists slip as it does opening, β² times stiffer:
 //   intact     τ = τ₀ (1 − w/w_e) + β² f/w_e s
@@ -77,6 +77,7 @@ class InterfaceLaw {
  private:
   double friction_stiffness() const { return closure_.closure_stress / (9.0 * closure_.residual_aperture); }
   double least_opening(double largest) const;
+  double bond_stiffness(double opening, double in_situ) const;
 
   std::shared_ptr<const CohesiveLaw> law_;
   double strength_, fracture_energy_;

@@ -84,6 +84,8 @@ void members(Point& p, V&& v) {
   v("max_opening", p.max_opening);
   v("in_situ", p.in_situ);
   v("in_situ_shear", p.in_situ_shear);
+  v("bond", p.bond);
+  v("bond_shear", p.bond_shear);
   v("plastic_slip", p.plastic_slip);
 }
 

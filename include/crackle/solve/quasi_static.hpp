@@ -60,6 +60,7 @@ struct TimeControl {
   double first = 1e-3;      ///< step after a change of the schedule [s]
   double smallest = 1e-10;  ///< below it the stage gives up [s]
   int edges_per_step = 3;   ///< a tip may advance by in one step
+  double energy = 3e-4;     ///< that the ledger of a step may miss, over what the step turns over [-]
 };
 
 struct QuasiStaticScene {

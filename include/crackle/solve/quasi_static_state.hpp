@@ -18,6 +18,8 @@ struct Point {
   double max_opening = 0.0;    ///< [m]
   double in_situ = 0.0;        ///< effective normal traction of the intact rock [Pa]
   double in_situ_shear = 0.0;  ///< and along the edge [Pa]
+  double bond = 0.0;           ///< traction of the bond without opening [Pa]: of the rock when it joined
+  double bond_shear = 0.0;     ///< [Pa]
   double plastic_slip = 0.0;   ///< [m]
 };
 
@@ -30,7 +32,7 @@ struct Cell {
   std::array<Point, 2> points;
   std::uint8_t wet = 0;
   double pressure = 0.0;  ///< [Pa]
-  double mass = 0.0;      ///< over reference density [m2]
+  double mass = 0.0;      ///< over reference density [m2]; of a dry cell: that its source has pushed in
   /// Since when it leaks off [s]: when an elastic crack's tip would have passed its inner end.
   double exposed = std::numeric_limits<double>::infinity();
   double sweep = 0.0;   ///< how long that tip takes to its outer end [s]

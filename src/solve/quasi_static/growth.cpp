@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "crackle/core/errors.hpp"
+#include "record.hpp"
 
 namespace crackle::quasi_static {
 namespace {
@@ -70,6 +72,11 @@ Vec2 across_largest(const Sym2& s, Vec2 forward) {
   return dot(along, forward) < 0.0 ? -1.0 * along : along;
 }
 
+double pressure_over_pores(const Equations& e, const State& state, std::size_t cell) {
+  const Index source = pressure_source(e, state, static_cast<Index>(cell));
+  return source < 0 ? 0.0 : state.cells[at(source)].pressure - e.scene.pore_pressure;
+}
+
 }  // namespace
 
 NextEdge choose_edge(const Equations& e, const State& state, const Tip& tip) {
@@ -105,6 +112,54 @@ NextEdge choose_edge(const Equations& e, const State& state, const Tip& tip) {
                     state.time, here.x, here.y));
   }
   return best;
+}
+
+void take_over(const Equations& e, State& state, std::size_t first) {
+  const auto count = static_cast<Index>(state.jumps.size() - first);
+  if (count == 0) return;
+  const auto joined = [&](Index unknown) { return at(unknown) >= first ? unknown - static_cast<Index>(first) : -1; };
+  // Forces that hold the new jumps shut, less what older points bear of them.
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(count);
+  Eigen::MatrixXd share = Eigen::MatrixXd::Zero(count, count);
+  for (Index k = 0; k < count; ++k) {
+    const double* row = e.rock.row(first + at(k));
+    for (std::size_t j = 0; j < first; ++j) force[k] += row[j] * state.jumps[j];
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> points;
+  for (std::size_t c = 0; c < state.cells.size(); ++c) {
+    const PathEdge& edge = e.path.edges()[c];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool touched = std::ranges::any_of(edge.jump[i], [&](const JumpTerm& t) { return joined(t.unknown) >= 0; });
+      const bool fresh = std::ranges::all_of(edge.jump[i], [&](const JumpTerm& t) { return joined(t.unknown) >= 0; });
+      if (!touched) continue;
+      const double half = 0.5 * edge.length;
+      if (fresh && state.cells[c].parent != of_joint) {
+        points.emplace_back(c, i);
+        for (const JumpTerm& a : edge.jump[i]) {
+          for (const JumpTerm& b : edge.jump[i])
+            share(joined(a.unknown), joined(b.unknown)) += half * (a.normal * b.normal + a.tangent * b.tangent);
+        }
+        continue;
+      }
+      const Point& p = state.cells[c].points[i];
+      const MixedTraction t = traction_at(e, state, c, i);
+      const double load = pressure_over_pores(e, state, c) - t.normal + p.in_situ, drag = p.in_situ_shear - t.shear;
+      for (const JumpTerm& a : edge.jump[i]) {
+        if (joined(a.unknown) >= 0) force[joined(a.unknown)] -= half * (load * a.normal + drag * a.tangent);
+      }
+    }
+  }
+  const Eigen::VectorXd traction = share.completeOrthogonalDecomposition().solve(force);
+  for (const auto& [c, i] : points) {
+    Point& p = state.cells[c].points[i];
+    p.bond = p.in_situ + pressure_over_pores(e, state, c);
+    p.bond_shear = p.in_situ_shear;
+    for (const JumpTerm& t : e.path.edges()[c].jump[i]) {
+      p.bond -= traction[joined(t.unknown)] * t.normal;
+      p.bond_shear -= traction[joined(t.unknown)] * t.tangent;
+    }
+    p.bond = std::min(p.bond, e.laws[c].strength());
+  }
 }
 
 }  // namespace crackle::quasi_static

@@ -2,6 +2,7 @@
 #include "ledger.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace crackle::quasi_static {
@@ -41,7 +42,7 @@ Along along(const Equations& e, std::size_t c, std::size_t i, const Point& point
             const std::vector<double>& jumps) {
   const double opening = openings(e.path.edges()[c], jumps)[i], slip = slips(e.path.edges()[c], jumps)[i];
   const MixedTraction t = e.laws[c].traction(opening, slip, point.max_opening, point.plastic_slip,
-                                             point.in_situ, point.in_situ_shear);
+                                             point.bond, point.bond_shear);
   return {slip, point.plastic_slip, t.friction,
           e.laws[c].shear_stiffness(std::max(opening, point.max_opening))};
 }
@@ -90,19 +91,31 @@ Energies kept(const Equations& e, const State& state) {
       const Point& point = cell.points[i];
       const double half = 0.5 * edge.length;
       k.confinement -= half * point.in_situ * (w[i] - edge.aperture);
-      k.faces += half * e.laws[c].stored(w[i], point.max_opening, point.in_situ);
+      k.faces += half * e.laws[c].stored(w[i], point.max_opening, point.bond);
       if (!e.scene.slip) continue;
       const Along s = along(e, c, i, point, state.jumps);
       k.confinement -= half * point.in_situ_shear * s.slip;
       k.faces +=
-          half * e.laws[c].stored_by_slip(w[i], s.slip, point.max_opening, s.friction, point.in_situ_shear);
+          half * e.laws[c].stored_by_slip(w[i], s.slip, point.max_opening, s.friction, point.bond_shear);
     }
-    if (!cell.wet) continue;
-    const double p = cell.pressure;
+    const Index source = pressure_source(e, state, static_cast<Index>(c));
+    if (source < 0) continue;
+    const double p = state.cells[at(source)].pressure;
     k.fluid +=
         cell.mass * (enthalpy(e.scene, p) - (p - e.scene.pore_pressure) / e.scene.fluid.density(p).value);
   }
   return k;
+}
+
+// What the work of the pump becomes.
+constexpr std::array parts{&Energies::well,     &Energies::entry,       &Energies::viscous, &Energies::leaked,
+                           &Energies::fluid,    &Energies::strain,      &Energies::confinement,
+                           &Energies::faces,    &Energies::fracture,    &Energies::friction};
+
+double left(const Energies& sum) {
+  double rest = sum.pumped;
+  for (const auto part : parts) rest -= sum.*part;
+  return rest;
 }
 
 }  // namespace
@@ -122,8 +135,10 @@ void account(const Equations& e, const State& before, State& after, double dt, d
   }
   for (std::size_t c = 0; c < after.cells.size(); ++c) {
     const Cell& cell = after.cells[c];
-    if (!cell.wet) continue;
-    const double mean = 0.5 * (h(pressure_before(e, before, static_cast<Index>(c))) + h(cell.pressure));
+    const Index source = pressure_source(e, after, static_cast<Index>(c));
+    if (source < 0) continue;
+    const double pressure = after.cells[at(source)].pressure;
+    const double mean = 0.5 * (h(pressure_before(e, before, static_cast<Index>(c))) + h(pressure));
     const bool old = c < before.cells.size();
     const double gained = cell.mass - (old ? before.cells[c].mass : 0.0);
     const double lost = cell.leaked - (old ? before.cells[c].leaked : 0.0);
@@ -141,9 +156,15 @@ void account(const Equations& e, const State& before, State& after, double dt, d
   sum.strain = now.strain - after.initial.strain;
   sum.confinement = now.confinement - after.initial.confinement;
   sum.faces = now.faces - after.initial.faces;
-  const double left = sum.pumped - (sum.well + sum.entry + sum.viscous + sum.leaked + sum.fluid + sum.strain +
-                                    sum.confinement + sum.faces + sum.fracture + sum.friction);
-  sum.residual = std::abs(left) / std::max({sum.pumped, sum.well, 1e-30});
+  sum.residual = std::abs(left(sum)) / std::max({sum.pumped, sum.well, 1e-30});
+}
+
+double error_of_step(const Energies& before, const Energies& after) {
+  double turned = std::max({1e-3 * after.pumped, 1e-3 * after.well, 1e-30});
+  for (const auto part : {&Energies::pumped, &Energies::well, &Energies::leaked, &Energies::strain,
+                          &Energies::fracture})
+    turned = std::max(turned, std::abs(after.*part - before.*part));
+  return std::abs(left(after) - left(before)) / turned;
 }
 
 }  // namespace crackle::quasi_static

@@ -29,20 +29,6 @@ double slip_of(const std::vector<JumpTerm>& terms, const std::vector<double>& ju
   return s;
 }
 
-// Tractions at a point; without slip those of a straight path.
-MixedTraction traction_at(const Equations& e, const State& s, std::size_t c, std::size_t i, double opening) {
-  const Point& point = s.cells[c].points[i];
-  if (e.scene.slip) {
-    return e.laws[c].traction(opening, slip_of(e.path.edges()[c].jump[i], s.jumps), point.max_opening,
-                              point.plastic_slip, point.in_situ, point.in_situ_shear);
-  }
-  const TractionSlope t = e.laws[c].traction(opening, point.max_opening, point.in_situ);
-  MixedTraction all;
-  all.normal = t.traction;
-  all.nn = t.slope;
-  return all;
-}
-
 // The equations of one Newton iteration. Unknowns of the fluid: pressures of wet cells, rates of
 // inlets, pressure of the well.
 class System {
@@ -164,12 +150,11 @@ class System {
   void add_faces() {
     for (std::size_t c = 0; c < s_.cells.size(); ++c) {
       const PathEdge& edge = e_.path.edges()[c];
-      const auto open = openings(edge, s_.jumps);
       const Index source = pressure_source(e_, s_, static_cast<Index>(c));
       const double p = source < 0 ? e_.scene.pore_pressure : s_.cells[at(source)].pressure;
       for (std::size_t i = 0; i < 2; ++i) {
         const Point& point = s_.cells[c].points[i];
-        MixedTraction t = traction_at(e_, s_, c, i, open[i]);
+        MixedTraction t = traction_at(e_, s_, c, i);
         const double weight = 0.5 * edge.length;
         if (careful_) {
           t.nn = std::max(t.nn, 0.0);
@@ -209,18 +194,21 @@ class System {
     fluid_entries_.emplace_back(row, pressure_[at(cell)], slope * pressure_unit);
   }
 
+  // Fluid of a cell, and of the dry one ahead that it pushes on.
   void add_cells() {
     for (std::size_t c = 0; c < s_.cells.size(); ++c) {
-      const Index row = pressure_[c];
-      if (row < 0) continue;
+      const auto index = static_cast<Index>(c);
+      const Index source = pressure_source(e_, s_, index);
+      if (source < 0 || pressure_[at(source)] < 0) continue;
+      const Index row = pressure_[at(source)];
       const Cell& cell = s_.cells[c];
-      const double h = e_.path.edges()[c].length, w = aperture(static_cast<Index>(c));
-      const ValueSlope density = e_.scene.fluid.density(cell.pressure);
-      const ValueSlope lost = leak(e_, s_, static_cast<Index>(c), cell.pressure, dt_);
+      const double h = e_.path.edges()[c].length, w = aperture(index), p = s_.cells[at(source)].pressure;
+      const ValueSlope density = e_.scene.fluid.density(p);
+      const ValueSlope lost = source == index ? leak(e_, s_, index, p, dt_) : ValueSlope{};
       fluid_residual_[row] += h * w * density.value - cell.mass + lost.value;
-      fluid_scale_ += std::abs(h * w * density.value - cell.mass) + std::abs(lost.value) + 1e-6 * cell.mass;
-      by_aperture(row, static_cast<Index>(c), h * density.value);
-      by_pressure(row, static_cast<Index>(c), h * w * density.slope + lost.slope);
+      fluid_scale_ += std::abs(h * w * density.value - cell.mass) + std::abs(lost.value) + 1e-6 * std::abs(cell.mass);
+      by_aperture(row, index, h * density.value);
+      by_pressure(row, source, h * w * density.slope + lost.slope);
     }
   }
 
@@ -338,6 +326,21 @@ std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& 
 
 std::array<double, 2> slips(const PathEdge& edge, const std::vector<double>& jumps) {
   return {slip_of(edge.jump[0], jumps), slip_of(edge.jump[1], jumps)};
+}
+
+MixedTraction traction_at(const Equations& e, const State& s, std::size_t c, std::size_t i) {
+  const Point& point = s.cells[c].points[i];
+  const PathEdge& edge = e.path.edges()[c];
+  const double opening = openings(edge, s.jumps)[i];
+  if (e.scene.slip) {
+    return e.laws[c].traction(opening, slip_of(edge.jump[i], s.jumps), point.max_opening, point.plastic_slip,
+                              point.bond, point.bond_shear);
+  }
+  const TractionSlope t = e.laws[c].traction(opening, point.max_opening, point.bond);
+  MixedTraction all;
+  all.normal = t.traction;
+  all.nn = t.slope;
+  return all;
 }
 
 Index pressure_source(const Equations& equations, const State& state, Index cell) {

@@ -28,6 +28,9 @@ struct Equations {
 std::array<double, 2> openings(const PathEdge& edge, const std::vector<double>& jumps);
 std::array<double, 2> slips(const PathEdge& edge, const std::vector<double>& jumps);
 
+/// Tractions of bonds and asperities at an end of a path edge [Pa]; without slip those of a straight path.
+MixedTraction traction_at(const Equations& equations, const State& state, std::size_t cell, std::size_t end);
+
 /// Pressure on the faces of a path edge [Pa]: of its own cell, or as the wetting rule says.
 /// @return the cell that gives it, -1: the pore pressure
 Index pressure_source(const Equations& equations, const State& state, Index cell);

@@ -26,6 +26,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 // Where an elastic crack would have its tip: 0.39 of the cohesive zone from its front, where w ~ x^{3/2}.
 constexpr double damage_at_tip = 0.25;
 
+constexpr int most_cuts = 6;  // of a step whose energy does not add up
+
 void check(const QuasiStaticScene& scene) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw CaseError(std::string("quasi-static stage: ") + what);
@@ -78,7 +80,9 @@ class QuasiStatic::Solver {
 
   QuasiStaticRow step(double end) {
     if (!(end > state_.time)) throw CaseError("quasi-static stage: a step has to end later than it starts");
-    for (double dt = choose(end);; dt *= 0.5) {
+    double shorter = 0.5;
+    int too_long = 0;
+    for (double dt = choose(end);; dt *= shorter) {
       if (dt < scene_.control.smallest) stop(dt);
       const std::size_t edges = path_.edges().size();
       qs::State trial = state_;
@@ -87,12 +91,22 @@ class QuasiStatic::Solver {
       const double rate = scene_.pump.volume(state_.time, until) / dt;
       const int iterations = advance(trial, dt, rate);
       state_.iterations += spent_;
-      if (iterations < 0) {
+      double error = 0.0;  // over what is allowed
+      if (iterations >= 0) {
+        finish(trial, until, dt, rate);
+        error = qs::error_of_step(state_.energies, trial.energies) / scene_.control.energy;
+      }
+      // What is left after a few cuts is not the step's.
+      const double suits = 0.9 / std::sqrt(std::max(error, 1e-9));  // the error of a step goes with its square
+      const bool cut = error > 1.0 && 0.1 * dt > scene_.control.smallest && too_long++ < most_cuts;
+      shorter = cut ? std::clamp(suits, 0.1, 0.5) : 0.5;
+      if (iterations < 0 || cut) {
         path_.truncate(edges);
         laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(edges), laws_.end());
         ++state_.rejected;
         continue;
       }
+      trial.step = dt * std::clamp(suits, 0.5, scene_.control.growth);
       return commit(std::move(trial), until, dt, rate, iterations);
     }
   }
@@ -130,8 +144,8 @@ class QuasiStatic::Solver {
   void set_in_situ(qs::Cell& cell, const PathEdge& edge) const {
     const Vec2 pull = scene_.stress * edge.normal;
     for (qs::Point& p : cell.points) {
-      p.in_situ = dot(edge.normal, pull);
-      if (scene_.slip) p.in_situ_shear = dot(Vec2{-edge.normal.y, edge.normal.x}, pull);
+      p.bond = p.in_situ = dot(edge.normal, pull);
+      if (scene_.slip) p.bond_shear = p.in_situ_shear = dot(Vec2{-edge.normal.y, edge.normal.x}, pull);
     }
   }
 
@@ -222,7 +236,7 @@ class QuasiStatic::Solver {
       throw NumericalError("quasi-static stage: no equilibrium of the initial fracture at pore pressure");
     for (std::size_t c = 0; c < state_.cells.size(); ++c) remember_slip(state_, c);
     for (std::size_t c = 0; c < state_.cells.size(); ++c) {
-      if (state_.cells[c].wet) state_.cells[c].mass = qs::fluid_in_cell(equations_, state_, c);
+      state_.cells[c].mass = qs::fluid_in_cell(equations_, state_, c);
     }
     state_.initial_fracture = qs::fracture_volume(state_);
     state_.initial_well = state_.well_pressure;
@@ -283,7 +297,10 @@ class QuasiStatic::Solver {
                       "make the path longer, or end the run earlier",
                       state.time));
     }
+    const std::size_t jumps = state.jumps.size();
     extend(state, tip, next);
+    rock_.follow(path_.unknowns());
+    qs::take_over(equations_, state, jumps);
   }
 
   void fill(qs::State& state, Index cell) const {
@@ -327,12 +344,13 @@ class QuasiStatic::Solver {
     for (std::size_t i = 0; i < 2; ++i) {
       qs::Point& p = state.cells[c].points[i];
       p.plastic_slip = laws_[c]
-                           .traction(w[i], slip[i], p.max_opening, p.plastic_slip, p.in_situ, p.in_situ_shear)
+                           .traction(w[i], slip[i], p.max_opening, p.plastic_slip, p.bond, p.bond_shear)
                            .plastic_slip;
     }
   }
 
-  QuasiStaticRow commit(qs::State trial, double until, double dt, double rate, int iterations) {
+  // Histories, masses and energies at the end of a step that has converged.
+  void finish(qs::State& trial, double until, double dt, double rate) {
     for (std::size_t c = 0; c < trial.cells.size(); ++c) {
       qs::Cell& cell = trial.cells[c];
       const auto w = qs::openings(path_.edges()[c], trial.jumps);
@@ -340,12 +358,12 @@ class QuasiStatic::Solver {
         const double lost = qs::leak(equations_, trial, static_cast<Index>(c), cell.pressure, dt).value;
         cell.leaked += lost;
         trial.leaked += lost;
-        cell.mass = qs::fluid_in_cell(equations_, trial, c);
         if (matrix_ && trial.time >= cell.exposed) {
           const std::size_t n = matrix_->cells();
           matrix_->advance(std::span(trial.matrix).subspan(c * n, n), dt, cell.pressure);
         }
       }
+      cell.mass = qs::fluid_in_cell(equations_, trial, c);
       const double before = laws_[c].damage(cell.points[0].max_opening);
       remember_slip(trial, c);
       for (std::size_t i = 0; i < 2; ++i)
@@ -353,12 +371,14 @@ class QuasiStatic::Solver {
       if (cell.exposed > until) expose(trial, cell, before, laws_[c].damage(cell.points[0].max_opening), dt);
     }
     trial.injected += rate * dt;
+    qs::account(equations_, state_, trial, dt, rate);
+  }
+
+  QuasiStaticRow commit(qs::State trial, double until, double dt, double rate, int iterations) {
     const bool entered = trial.connected;
     const bool changes = until >= scene_.pump.next_change(state_.time);
     trial.time = until;
-    trial.step = dt * scene_.control.growth;
     if (changes) trial.event = until;
-    qs::account(equations_, state_, trial, dt, rate);
     if (!trial.connected && trial.well_pressure >= *scene_.well.breakdown_pressure * (1.0 - 1e-12)) {
       trial.connected = 1;
       trial.breakdown_time = trial.event = until;

@@ -31,9 +31,11 @@ double behind_front(const Equations& e, const State& state, Index tip) {
 }  // namespace
 
 double fluid_in_cell(const Equations& e, const State& state, std::size_t c) {
+  const Index source = pressure_source(e, state, static_cast<Index>(c));
+  if (source < 0) return 0.0;
   const auto w = openings(e.path.edges()[c], state.jumps);
   return e.path.edges()[c].length * 0.5 * (w[0] + w[1]) *
-         e.scene.fluid.density(state.cells[c].pressure).value;
+         e.scene.fluid.density(state.cells[at(source)].pressure).value;
 }
 
 double fracture_volume(const State& state) {

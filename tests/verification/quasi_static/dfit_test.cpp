@@ -21,10 +21,11 @@ TEST(Dfit, Reference) {
   const auto begin = std::chrono::steady_clock::now();
   QuasiStatic stage(dfit::scene(0.5, 60.0));
   std::vector<QuasiStaticRow> rows;
-  double defect = 0.0;
+  double defect = 0.0, residual = 0.0;
   stage.run(shut_in + 1e6, [&](const QuasiStaticRow& row) {
     rows.push_back(row);
     defect = std::max(defect, std::abs(row.mass_defect) / row.injected);
+    residual = std::max(residual, row.energies.residual);
   });
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto at_time = [&](double t) {
@@ -58,10 +59,10 @@ TEST(Dfit, Reference) {
   const quasi_static::Energies& energy = stage.state().energies;
   std::printf(
       "energy, kJ/m: pump %.1f, entry %.1f, viscous %.1f, leaked %.1f, strain %.1f, confinement %.1f, "
-      "fracture %.2f; residual %.1e\n",
+      "fracture %.2f; residual %.1e at most\n",
       1e-3 * energy.pumped, 1e-3 * energy.entry, 1e-3 * energy.viscous, 1e-3 * energy.leaked,
-      1e-3 * energy.strain, 1e-3 * energy.confinement, 1e-3 * energy.fracture, energy.residual);
-  EXPECT_LT(energy.residual, 3e-4);
+      1e-3 * energy.strain, 1e-3 * energy.confinement, 1e-3 * energy.fracture, residual);
+  EXPECT_LT(residual, 1e-4);
   const struct {
     double after, pressure, gate;
   } record[] = {{1, 44.571, 0.03},    {60, 44.501, 0.03}, {300, 44.444, 0.03}, {1000, 44.360, 0.03},

@@ -60,9 +60,9 @@ TEST(QuasiStaticEquations, FullResidual) {
     const FractureCell cell = stage.cells()[c];
     for (std::size_t i = 0; i < 2; ++i) {
       const double history = c < before.cells.size() ? before.cells[c].points[i].max_opening : 0.0;
-      const double t0 = state.cells[c].points[i].in_situ;
-      const double pull =
-          law.traction(cell.opening[i], history, t0).traction - t0 - (cell.pressure - s.pore_pressure);
+      const quasi_static::Point& point = state.cells[c].points[i];
+      const double pull = law.traction(cell.opening[i], history, point.bond).traction - point.in_situ -
+                          (cell.pressure - s.pore_pressure);
       const Vec2 f = 0.5 * edge.length * pull * edge.normal;
       const Edge& e = mesh.edges[at(edge.edge)];
       for (std::size_t side = 0; side < 2; ++side) {

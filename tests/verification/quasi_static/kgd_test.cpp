@@ -31,7 +31,7 @@ QuasiStaticScene kgd(double step, double path, double toughness, double viscosit
 
 struct Found {
   wing::Errors pressure, opening, length;
-  double defect = 0.0;
+  double defect = 0.0, residual = 0.0;  // of mass and energy, over what was injected: the largest
 };
 
 /// Half-length [m] and net pressure at the well [Pa] where toughness rules, for a volume [m2] that grows
@@ -70,6 +70,7 @@ Found toughness_vertex(double step, double confinement, Wetting wetting = Wettin
   Found found;
   stage.run(30.0, [&](const QuasiStaticRow& row) {
     found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
+    found.residual = std::max(found.residual, row.energies.residual);
     if (row.time < 8.0) return;
     const double volume = 2.0 * row.fracture_volume, weight = row.step / row.time;
     const ToughnessVertex reference(volume, row.time, toughness, s.fluid.viscosity);
@@ -107,6 +108,7 @@ TEST(Kgd, ToughnessVertex) {
     EXPECT_LT(found.opening.rms(), 1.0);
     EXPECT_LT(std::abs(found.length.mean()), 2.0);
     EXPECT_LT(found.defect, 1e-8);
+    EXPECT_LT(found.residual, 1e-3);
     if (confinement == 0.0) free_pressure = found.pressure.mean();
     accept(
         4,
@@ -128,6 +130,7 @@ Found viscosity_vertex(double step, double relative) {
   Found found;
   stage.run(30.0, [&](const QuasiStaticRow& row) {
     found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
+    found.residual = std::max(found.residual, row.energies.residual);
     if (row.time < 8.0) return;
     // Own solution of the zero-toughness similarity problem: γ, Ω(0), Π(0).
     const double mu = 12e-3, scale = std::cbrt(mu / (modulus * row.time));
@@ -161,20 +164,26 @@ TEST(Kgd, ViscosityVertex) {
   EXPECT_LT(fine.pressure.rms(), 1.0);
   EXPECT_LT(fine.opening.rms(), 1.5);
   EXPECT_LT(fine.defect, 1e-8);
+  EXPECT_LT(std::max(coarse.residual, fine.residual), 1e-3);
 }
 
 /// Leak-off rules and viscosity: ℓ = V_leak/(π C' √t), C' = 2 C_L; with ε = (12 μ Q/(E' ℓ²))^¼ opening and
 /// pressure at the well are 1.44700 ε ℓ and 0.42397 ε E' (validation D7, own solution).
-TEST(Kgd, LeakOffAndViscosity) {
+struct LeakOffVertex : Found {
+  double efficiency = 0.0;
+};
+
+LeakOffVertex leak_off_vertex(double relative) {
   constexpr double coefficient = 5.9e-5, viscosity = 1e-3;
   QuasiStaticScene s = kgd(0.25, 12.0, 1e4, viscosity, 9.44e6);
   s.leak_off = CarterLeakOff{coefficient, s.pore_pressure, 2e6};
+  s.control.relative = relative;
   QuasiStatic stage(s);
-  Found found;
-  double efficiency = 0.0;
+  LeakOffVertex found;
   stage.run(1400.0, [&](const QuasiStaticRow& row) {
     found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
-    efficiency = row.fracture_volume / row.injected;
+    found.residual = std::max(found.residual, row.energies.residual);
+    found.efficiency = row.fracture_volume / row.injected;
     if (row.time < 700.0) return;
     const double l = 2.0 * row.leaked / (M_PI * 2.0 * coefficient * std::sqrt(row.time));
     const double e = std::pow(12.0 * viscosity * rate / (modulus * l * l), 0.25);
@@ -183,18 +192,30 @@ TEST(Kgd, LeakOffAndViscosity) {
     found.opening.add(weight, row.opening, 1.447 * e * l);
     found.length.add(weight, row.elastic_length, l);
   });
-  std::printf("leak-off and viscosity: efficiency %.3f at the end, mass %.0e; rms %.2f, %.2f %%\n",
-              efficiency, found.defect, found.pressure.rms(), found.opening.rms());
-  accept(24, "leak-off and viscosity rule (M-tilde vertex), h = 0.25 m: p, w, length; efficiency",
+  std::printf("leak-off and viscosity, steps of %.1f %%: p %+.2f, w %+.2f, length %+.2f %%; rms %.2f, %.2f %%\n",
+              100.0 * relative, found.pressure.mean(), found.opening.mean(), found.length.mean(),
+              found.pressure.rms(), found.opening.rms());
+  return found;
+}
+
+// A tip that goes on by whole edges takes in a step of 2 % what it leaks in several; by chance of where the steps
+// fall such runs scatter by 1 %.
+TEST(Kgd, LeakOffAndViscosity) {
+  const LeakOffVertex coarse = leak_off_vertex(0.02), found = leak_off_vertex(0.005);
+  accept(24, "leak-off and viscosity rule (M-tilde vertex), h = 0.25 m, steps of 0.5 %: p, w, length; efficiency",
          "3, 3, 8 %; printed",
          text("%+.2f, %+.2f, %+.2f %%; %.3f", found.pressure.mean(), found.opening.mean(),
-              found.length.mean(), efficiency),
+              found.length.mean(), found.efficiency),
          std::abs(found.pressure.mean()) <= 3.0 && std::abs(found.opening.mean()) <= 3.0 &&
              std::abs(found.length.mean()) <= 8.0);
+  accept(24, "the same, steps of 2 %: p, w, length", "printed",
+         text("%+.2f, %+.2f, %+.2f %%", coarse.pressure.mean(), coarse.opening.mean(), coarse.length.mean()), true);
   EXPECT_LT(found.pressure.rms(), 3.0);
   EXPECT_LT(found.opening.rms(), 3.5);
   EXPECT_LT(std::abs(found.length.mean()), 3.0);
-  EXPECT_LT(found.defect, 1e-8);
+  EXPECT_LT(coarse.opening.rms(), 5.0);
+  EXPECT_LT(std::max(found.defect, coarse.defect), 1e-8);
+  EXPECT_LT(std::max(found.residual, coarse.residual), 1e-3);
 }
 
 /// Toughness to leak-off: a(t) of Q t = 2 √π K a^{3/2}/E' + 8 C_L ∫₀ᵃ √(t − t₀(x)) dx (two wings, two
@@ -254,6 +275,7 @@ CarterFound carter(double step, double leak_off, double path) {
   CarterFound c;
   stage.run(100.0, [&](const QuasiStaticRow& row) {
     c.found.defect = std::max(c.found.defect, std::abs(row.mass_defect) / row.injected);
+    c.found.residual = std::max(c.found.residual, row.energies.residual);
     if (row.time < 20.0) return;
     const double a = reference.length(row.time), p = toughness / std::sqrt(M_PI * a);
     const double weight = row.step / row.time;
@@ -287,6 +309,7 @@ TEST(Kgd, CarterLeakOff) {
   EXPECT_LT(std::abs(strong.found.pressure.mean()), 4.0);
   EXPECT_NEAR(strong.efficiency, strong.reference, 0.02);
   EXPECT_LT(strong.found.defect, 1e-8);
+  EXPECT_LT(strong.found.residual, 1e-3);
 }
 
 // Both wings on the whole domain against one wing on its half.

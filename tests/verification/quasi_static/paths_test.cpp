@@ -181,7 +181,11 @@ TEST(Paths, Kink) {
   s.wings = {free_wing(s, {0.0, 0.0}, {1.0, 1.0}), free_wing(s, {0.0, 0.0}, {-1.0, -1.0})};
   QuasiStatic stage(s);
   QuasiStaticRow last;
-  stage.run(10.0, [&](const QuasiStaticRow& row) { last = row; });
+  double residual = 0.0;
+  stage.run(10.0, [&](const QuasiStaticRow& row) {
+    last = row;
+    residual = std::max(residual, row.energies.residual);
+  });
   const std::vector<FractureCell> cells = stage.cells();
   Vec2 left{0, 0}, right{0, 0};
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -195,8 +199,8 @@ TEST(Paths, Kink) {
   const double p = 100.0 * ((last.fracture_pressure - pore - 9.44e6) / exact.pressure - 1.0);
   std::printf(
       "kink: tips at (%.2f, %.2f) and (%.2f, %.2f); straight fracture of that volume: half-length %.2f m; "
-      "energy residual %.1e\n",
-      left.x, left.y, right.x, right.y, exact.half_length, last.energies.residual);
+      "energy residual %.1e at most\n",
+      left.x, left.y, right.x, right.y, exact.half_length, residual);
   accept(
       20,
       "notch at 45 degrees, free path: direction from the notch's end; pressure against a straight fracture",
@@ -206,7 +210,7 @@ TEST(Paths, Kink) {
   EXPECT_GT(right.x - left.x, 6.0);
   EXPECT_NEAR(left.x + right.x, 0.0, 1.01);
   EXPECT_GT(last.energies.friction, 0.0);
-  EXPECT_LT(last.energies.residual, 2e-3) << "with the slip of closed faces";
+  EXPECT_LT(residual, 1e-3) << "with the slip of closed faces";
   EXPECT_LT(std::abs(last.mass_defect), 1e-8 * last.injected);
 }
 
