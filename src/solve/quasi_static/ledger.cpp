@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bore.hpp"
+
 namespace crackle::quasi_static {
 namespace {
 
@@ -82,6 +84,7 @@ double opened(const Equations& e, const State& state) {
 Energies kept(const Equations& e, const State& state) {
   Energies k;
   k.strain = strain_energy(e, state);
+  add_bore_energies(e, state, k);
   for (std::size_t c = 0; c < state.cells.size(); ++c) {
     const Cell& cell = state.cells[c];
     const PathEdge& edge = e.path.edges()[c];
