@@ -73,7 +73,7 @@ double static_stage_bytes(double triangles) {
 // In field time the factor of the stiffness in double precision leads by far (fitted to measured peaks).
 RunMemoryUse memory_of_field_time(const Case& scene, double triangles) {
   const double doublings = std::log2(triangles / 3e4);
-  const double a_triangle = is_straight(scene) ? 950.0 + 110.0 * doublings : 1325.0 + 174.0 * doublings;
+  const double a_triangle = on_half_grid(scene) ? 950.0 + 110.0 * doublings : 1325.0 + 174.0 * doublings;
   const double run = program + frame_library + triangles * std::max(a_triangle, 700.0);
   return {run, run + 0.5 * checkpoint_library};
 }
@@ -142,7 +142,7 @@ double available_memory() {
 
 void require_memory(const Case& scene) {
   if (!scene.mesh.file.empty()) return;
-  const bool grid = in_field_time(scene) && is_straight(scene);
+  const bool grid = in_field_time(scene) && on_half_grid(scene);
   refuse_if_too_large(scene, grid ? estimate_grid_triangles(scene) : estimate_triangles(mesh_recipe(scene)),
                       "about ");
 }

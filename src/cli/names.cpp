@@ -46,8 +46,9 @@ std::vector<NameGroup> name_groups() {
   groups.push_back(
       {"Fluid models",
        "fluid.wets",
-       {{"broken",
-         "one pressure in the wellbore and in all broken elements connected to it, no viscosity"}}});
+       {{"broken", "one pressure in the wellbore and in all broken elements connected to it, no viscosity"},
+        {"damaged", "also in those that have begun to open, next to where it is"},
+        {"tip", "in field time: the edge ahead of damaged ones bears the pressure of the last of them"}}});
   groups.push_back(
       {"Fluid in joints",
        "fluid.joints",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/mesh/grid.hpp"
@@ -46,7 +47,81 @@ void set_straight_path(const Case& scene, QuasiStaticScene& s) {
   s.wings.push_back(std::move(wing));
 }
 
-// The edges of a notch, in order along it; two wings leave the vertex nearest to the origin.
+bool is_wall(const Edge& edge) { return edge.kind == EdgeKind::wellbore; }
+
+void hold_rim(QuasiStaticScene& s) {
+  s.held.assign(s.mesh->vertices.size(), 0);
+  for (const Edge& e : s.mesh->edges) {
+    if (e.kind == EdgeKind::outer) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
+  }
+}
+
+// The vertex of the wellbore's wall that lies most in a direction.
+Index on_wall(const Mesh& mesh, Vec2 direction) {
+  Index best = -1;
+  double most = -2.0;
+  for (const Edge& e : mesh.edges) {
+    if (!is_wall(e)) continue;
+    for (const Index v : e.vertex) {
+      const Vec2 place = mesh.vertices[at(v)];
+      if (const double aligned = dot(place, direction) / norm(place); aligned > most)
+        most = aligned, best = v;
+    }
+  }
+  return best;
+}
+
+// Two wings along x from the wall of the wellbore, on all of the domain.
+void set_straight_paths_of_wellbore(const Case& scene, QuasiStaticScene& s) {
+  hold_rim(s);
+  const Mesh& mesh = *s.mesh;
+  for (const double side : {1.0, -1.0}) {
+    Wing wing;
+    wing.start = on_wall(mesh, {side, 0.0});
+    wing.path = edges_along(mesh, mesh.vertices[at(wing.start)], {side * scene.mesh.fine_radius, 0.0});
+    wing.open = 0;
+    for (const Index e : wing.path) {
+      const auto& v = mesh.edges[at(e)].vertex;
+      const double middle = 0.5 * side * (mesh.vertices[at(v[0])].x + mesh.vertices[at(v[1])].x);
+      if (middle < scene.fracture.notch) ++wing.open;
+    }
+    s.wings.push_back(std::move(wing));
+  }
+}
+
+// Two wings that start where the wall of the wellbore is pulled most: along the larger compression, or, where
+// it is the same all round, at fracture.angle.
+void set_wings_of_wall(const Case& scene, QuasiStaticScene& s) {
+  const Mesh& mesh = *s.mesh;
+  const Sym2& stress = scene.stress;
+  const double difference = std::hypot(0.5 * (stress.xx - stress.yy), stress.xy);
+  const double angle = 0.5 * std::atan2(-2.0 * stress.xy, stress.yy - stress.xx);
+  const Vec2 along = difference > 1e-9 * std::abs(stress.xx + stress.yy)
+                         ? Vec2{std::cos(angle), std::sin(angle)}
+                         : notch_direction(scene);
+  for (const double side : {1.0, -1.0}) {
+    Wing wing;
+    wing.start = on_wall(mesh, side * along);
+    wing.free = true;
+    wing.open = 0;
+    double most = 0.0;
+    Index first = -1;
+    for (Index i = 0; i < mesh.edge_count(); ++i) {
+      const Edge& e = mesh.edges[at(i)];
+      if (is_wall(e) || (e.vertex[0] != wing.start && e.vertex[1] != wing.start)) continue;
+      const Vec2 way =
+          mesh.vertices[at(e.vertex[e.vertex[0] == wing.start ? 1 : 0])] - mesh.vertices[at(wing.start)];
+      const double aligned = side * dot(way, along) / norm(way);
+      if (aligned > most) most = aligned, first = i;
+    }
+    require_quasi_static(first >= 0, scene,
+                         "no edge of the mesh leads from the wall of the wellbore into the rock");
+    wing.path = {first};
+    s.wings.push_back(std::move(wing));
+  }
+}
+
+// The edges of a notch, in order along it; two wings leave the vertex nearest to the origin, or the wall.
 void set_wings(const Case& scene, std::vector<Index> notch, QuasiStaticScene& s) {
   const Mesh& mesh = *s.mesh;
   const Vec2 along = notch_direction(scene);
@@ -61,18 +136,20 @@ void set_wings(const Case& scene, std::vector<Index> notch, QuasiStaticScene& s)
       if (std::abs(where(v)) < std::abs(where(well))) well = v;
     }
   }
+  const double parting = is_bored(scene) ? 0.0 : where(well);
   for (const double side : {1.0, -1.0}) {
     Wing wing;
-    wing.start = well;
     wing.free = true;
     for (const Index e : notch) {
-      if (side * (middle(e) - where(well)) > 0.0) wing.path.push_back(e);
+      if (side * (middle(e) - parting) > 0.0) wing.path.push_back(e);
     }
     require_quasi_static(
         !wing.path.empty(), scene,
         "the well is in the origin: fracture.offset has to leave it between the ends of the notch");
     if (side < 0.0) std::ranges::reverse(wing.path);
     wing.open = wing.path.size();
+    const auto& first = mesh.edges[at(wing.path.front())].vertex;
+    wing.start = side * where(first[0]) < side * where(first[1]) ? first[0] : first[1];
     Index from = wing.start;
     for (const Index e : wing.path) {
       const auto& v = mesh.edges[at(e)].vertex;
@@ -102,23 +179,21 @@ GridLines grid_lines(const Case& scene) {
 // On the whole domain, held at its rim: wings that choose their way, and joints.
 void set_free_path(const Case& scene, QuasiStaticScene& s) {
   const Scene rock = make_scene(scene, s.mesh);
-  require_quasi_static(!rock.cracks.empty(), scene, "fracture.notch is shorter than an edge of the mesh");
   s.slip = true;
   s.shear.friction = rock.cohesive.tan_residual;
-  s.held.assign(s.mesh->vertices.size(), 0);
-  for (const Edge& e : s.mesh->edges) {
-    if (e.kind == EdgeKind::outer) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
-  }
+  hold_rim(s);
   for (const JointEdge& joint : rock.joints) {
     require_quasi_static(!joint.bonded, scene, "bonded joints are not yet taken");
     s.joints.push_back({joint.edge, rock.joint_materials[joint.material - 1U].tan_residual});
   }
+  if (scene.fracture.notch == 0.0) return set_wings_of_wall(scene, s);
+  require_quasi_static(!rock.cracks.empty(), scene, "fracture.notch is shorter than an edge of the mesh");
   set_wings(scene, rock.cracks, s);
 }
 
 }  // namespace
 
-double modelled_halves(const Case& scene) { return is_straight(scene) ? 1.0 : 2.0; }
+double modelled_halves(const Case& scene) { return on_half_grid(scene) ? 1.0 : 2.0; }
 
 double estimate_grid_triangles(const Case& scene) {
   const GridLines lines = grid_lines(scene);
@@ -135,7 +210,16 @@ double estimate_grid_triangles(const Case& scene) {
 }
 
 Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network) {
-  if (!is_straight(scene)) return excavate(make_mesh(scene, network));
+  if (!on_half_grid(scene)) {
+    Case laid = scene;
+    if (is_straight(scene)) {  // edges along both paths, from corners of the wall
+      laid.fracture.notch = scene.mesh.fine_radius;
+      const double half = 0.5 * std::numbers::pi * scene.wellbore.diameter / scene.mesh.size_fine;
+      if (laid.wellbore.segments == 0)
+        laid.wellbore.segments = 2 * std::max(4, static_cast<int>(std::lround(half)));
+    }
+    return excavate(make_mesh(laid, is_straight(scene) ? nullptr : network));
+  }
   const GridLines lines = grid_lines(scene);
   const auto line = [](const GridLine& l) { return graded_line(0.0, l.fine_end, l.to, l.grading); };
   return grid_rectangle(line(lines.x), mirrored(line(lines.y)));
@@ -160,6 +244,9 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
   s.law = find_law(scene.cohesive.law);
   s.tensile_strength = scene.rock.tensile_strength;
   s.fracture_energy = scene.rock.fracture_energy_mode1;
+  s.wetting = scene.fluid.wets == "tip"       ? Wetting::tip_pressure
+              : scene.fluid.wets == "damaged" ? Wetting::damaged
+                                              : Wetting::broken;
   s.closure = {scene.fracture.residual_aperture, scene.fracture.closure_stress};
   s.fluid.viscosity =
       scene.fluid.flow == "uniform" ? viscosity_of_uniform_pressure(scene) : scene.fluid.viscosity;
@@ -190,8 +277,10 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
   s.pump = Pump(std::move(stages));
 
   s.mesh = std::move(mesh);
-  if (is_straight(scene)) {
+  if (on_half_grid(scene)) {
     set_straight_path(scene, s);
+  } else if (is_straight(scene)) {
+    set_straight_paths_of_wellbore(scene, s);
   } else {
     set_free_path(scene, s);
   }
@@ -201,10 +290,13 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
 std::string quasi_static_mesh_text(const Case& scene, const QuasiStaticScene& stage) {
   std::string text =
       fmt::format("{} triangles, {} vertices", stage.mesh->triangle_count(), stage.mesh->vertex_count());
-  if (is_straight(scene))
+  if (on_half_grid(scene))
     return text + fmt::format(", half of the domain; a path of {} edges", stage.wings.front().path.size());
-  text += fmt::format("; a notch of {} wings, free beyond", stage.wings.size());
-  for (const Wing& wing : stage.wings) text += fmt::format("; {} edges", wing.path.size());
+  text += fmt::format("; {} wings from {}{}", stage.wings.size(),
+                      is_bored(scene) ? "the wall of the wellbore" : "the well",
+                      is_straight(scene) ? " along x" : ", free beyond the notch");
+  for (const Wing& wing : stage.wings)
+    text += fmt::format("; {} edges, {} of them open", wing.path.size(), wing.open);
   if (!stage.joints.empty()) text += fmt::format("; {} edges of joints", stage.joints.size());
   return text;
 }
@@ -221,6 +313,13 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
         fmt::format("the fluid would lag behind the tip for {:.2g} s (E'^2 12 viscosity / stress^3): the "
                     "stage takes the fracture as filled to its tip",
                     modulus * modulus * mu / (across * across * across)));
+  }
+  if (is_bored(scene) && scene.fracture.notch == 0.0) {
+    const Sym2& s = scene.stress;
+    const double mean = 0.5 * (s.xx + s.yy), half = std::hypot(0.5 * (s.xx - s.yy), s.xy);
+    notes.push_back(
+        fmt::format("the wall of the wellbore breaks from {:.2f} MPa (Hubbert-Willis)",
+                    1e-6 * (stage.tensile_strength - 2.0 * mean - 4.0 * half + stage.pore_pressure)));
   }
   const double strength = resolved_strength(stage.tensile_strength, modulus, stage.fracture_energy,
                                             scene.mesh.size_fine, stage.edges_per_zone);

@@ -48,12 +48,13 @@ Numbers numbers_of(const Case& scene) {
   }
   const double across = std::max(scene.domain.width, scene.domain.height);
   if (across > 0.0) n.wave_times = scene.run.end_time * waves.s / across;
-  const double notch = scene.fracture.notch;
-  if (notch > 0.0) {
+  if (const double start = first_half_length(scene); start > 0.0) {
     const double rayleigh = 0.92 * waves.s;
     n.speed =
-        n.modulus * n.rate / (3.0 * std::sqrt(std::numbers::pi) * n.toughness * std::sqrt(notch) * rayleigh);
-    n.snap = std::sqrt(scene.well.storage / scene.well.height * n.modulus / (6.0 * std::numbers::pi)) / notch;
+        n.modulus * n.rate / (3.0 * std::sqrt(std::numbers::pi) * n.toughness * std::sqrt(start) * rayleigh);
+    const double bore = 0.25 * std::numbers::pi * scene.wellbore.diameter * scene.wellbore.diameter;
+    const double storage = scene.well.storage / scene.well.height + bore / scene.fluid.bulk_modulus;
+    n.snap = std::sqrt(storage * n.modulus / (6.0 * std::numbers::pi)) / start;
   }
   if (scene.fluid.viscosity > 0.0 && n.rate > 0.0)
     n.k_m = dimensionless_toughness(n.modulus, n.toughness, scene.fluid.viscosity, n.rate);
@@ -62,7 +63,10 @@ Numbers numbers_of(const Case& scene) {
 
 void check(const Case& scene) {
   const auto require = [&](bool holds, const std::string& what) { require_quasi_static(holds, scene, what); };
-  require(scene.fracture.notch > 0.0, "it starts from a fracture: give fracture.notch");
+  require(scene.fracture.notch > 0.0 || is_bored(scene),
+          "it starts from a fracture or the wall of a wellbore: give fracture.notch or wellbore.diameter");
+  require(scene.fracture.notch == 0.0 || 2.0 * scene.fracture.notch > scene.wellbore.diameter,
+          "fracture.notch counts from the origin: it has to end outside of the wellbore");
   require(scene.mesh.file.empty(), "meshes from a file are not yet taken");
   require(scene.layers.empty(), "layers are not yet taken");
   require(scene.notches.empty(), "[[notches]] are not yet taken, give fracture.notch");
@@ -82,11 +86,10 @@ void check(const Case& scene) {
                   -1e-6 * confinement(scene)));
   if (is_straight(scene)) {
     require(asymmetry(scene).empty(), "fracture.path = \"straight\" cannot be: " + asymmetry(scene));
-    require(scene.mesh.fine_radius > scene.fracture.notch + scene.mesh.size_fine,
-            "mesh.fine_radius is where the path of the fracture ends: it has to be above fracture.notch");
-  } else {
-    require(scene.wellbore.diameter == 0.0,
-            "a free path starts from a notch alone: wellbore.diameter has to be 0");
+    require(
+        scene.mesh.fine_radius > first_half_length(scene) + scene.mesh.size_fine,
+        "mesh.fine_radius is where the path of the fracture ends: it has to be above fracture.notch and the "
+        "wellbore's radius");
   }
 }
 
@@ -135,6 +138,10 @@ bool is_straight(const Case& scene) {
   return scene.fracture.path == "straight" || (scene.fracture.path == "auto" && asymmetry(scene).empty());
 }
 
+double first_half_length(const Case& scene) {
+  return std::max(scene.fracture.notch, 0.5 * scene.wellbore.diameter);
+}
+
 double confinement(const Case& scene) {
   const Sym2& s = scene.stress;
   if (is_straight(scene)) return -s.yy;
@@ -150,25 +157,31 @@ RegimeChoice choose_regime(const Case& scene) {
   choice.scene = scene;
   const Numbers n = numbers_of(scene);
   const bool forced = scene.run.regime != "auto";
-  choice.quasi_static = forced
-                            ? scene.run.regime == "quasi_static"
-                            : n.wave_times > long_run && scene.fracture.notch > 0.0 && n.speed < fast_growth;
+  choice.quasi_static = forced ? scene.run.regime == "quasi_static"
+                               : n.wave_times > long_run && n.speed > 0.0 && n.speed < fast_growth;
   std::string numbers = fmt::format("the run lasts {:.2g} shear wave times across the domain", n.wave_times);
-  if (scene.fracture.notch > 0.0)
-    numbers += fmt::format("; the notch grows at {:.2g} of the Rayleigh speed at first", n.speed);
+  if (n.speed > 0.0)
+    numbers += fmt::format("; the {} grows at {:.2g} of the Rayleigh speed at first",
+                           scene.fracture.notch > 0.0 ? "notch" : "fracture", n.speed);
   choice.reasons.push_back(
-      fmt::format("regime: {}{} ({}; quasi-static from {:.0f} on, below {}, with a notch)",
+      fmt::format("regime: {}{} ({}; quasi-static from {:.0f} on, below {}, with a notch or a wellbore)",
                   choice.quasi_static ? "quasi-static" : "dynamic", forced ? ", as run.regime says" : "",
                   numbers, long_run, fast_growth));
-  if (!choice.quasi_static) return choice;
+  if (!choice.quasi_static) {
+    if (scene.fluid.wets == "tip")
+      throw CaseError(scene.file, 0, 0,
+                      "fluid.wets = \"tip\" is of field time: in steps it is \"damaged\" or \"broken\"");
+    return choice;
+  }
   check(scene);
   choice.scene.run.regime = "quasi_static";
   choice.scene.fracture.path = is_straight(scene) ? "straight" : "free";
+  if (scene.fluid.wets == "auto") choice.scene.fluid.wets = "tip";
   if (n.snap > 1.0) {
     choice.reasons.push_back(fmt::format(
         "snap: the fluid stored in the well drives a fracture of less than {:.3g} m on by itself; only "
         "its viscosity and well.impedance hold it",
-        n.snap * scene.fracture.notch));
+        n.snap * first_half_length(scene)));
   }
   choice.reasons.push_back(choose_leak_off(choice.scene, n));
   choice.reasons.push_back(choose_flow(choice.scene, n));

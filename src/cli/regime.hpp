@@ -29,8 +29,18 @@ RegimeChoice choose_regime(const Case& scene);
 /// Of a case that choose_regime() has gone through.
 inline bool in_field_time(const Case& scene) { return scene.run.regime == "quasi_static"; }
 
-/// A path along x on half of the domain; else one that is free, on all of it.
+/// A path along x; else one that is free.
 bool is_straight(const Case& scene);
+
+/// A wellbore in the mesh, whose wall bears the pressure of the well.
+inline bool is_bored(const Case& scene) { return scene.wellbore.diameter > 0.0; }
+
+/// A straight path without a wellbore: half of the domain on a grid. Else all of it, with the mesh of the
+/// dynamic regime.
+inline bool on_half_grid(const Case& scene) { return is_straight(scene) && !is_bored(scene); }
+
+/// Where the fracture ends at first, from the origin [m].
+double first_half_length(const Case& scene);
 
 /// Effective far-field compression that a fracture opens against: across it, or the least [Pa].
 double confinement(const Case& scene);

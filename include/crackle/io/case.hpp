@@ -181,8 +181,9 @@ struct Case {
     double bulk_modulus = 2.2e9;    ///< [Pa]
     double density = 1000.0;        ///< at initial pressure [kg/m3]
     double initial_pressure = 0.0;  ///< [Pa]
-    std::string wets = "broken";    ///< which elements and triangles the fluid enters: "broken" or "damaged"
-    double viscosity = 0.0;         ///< in the quasi-static regime [Pa s]
+    /// Which elements and triangles the fluid enters: "broken", "damaged", in field time "tip"; "auto"
+    std::string wets = "auto";
+    double viscosity = 0.0;                     ///< in the quasi-static regime [Pa s]
     std::optional<double> cavitation_pressure;  ///< [Pa]
     std::string flow = "auto";          ///< in the quasi-static regime "uniform", "viscous", "turbulent"
     std::string leak_off = "auto";      ///< "none", "carter", "diffusion", or by the numbers

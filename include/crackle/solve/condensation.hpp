@@ -3,7 +3,8 @@
 // Static condensation of the rock onto the jumps of a fracture's path:
 //   S = K_jj − K_jI K_II⁻¹ K_Ij,   K_II: the intact mesh, factorised once
 // K_Ij: forces on the intact mesh by a unit jump of one sector's triangles. One back substitution for
-// every new unknown; the rest of S is untouched by it.
+// every new unknown; the rest of S is untouched by it. Loads f on the rock act on the jumps as
+//   f_j − K_jI K_II⁻¹ f_I
 #pragma once
 
 #include <memory>
@@ -15,11 +16,21 @@
 
 namespace crackle {
 
+/// Share of a corner of a triangle in a load: its force per unit of the load.
+struct PointLoad {
+  Index triangle = -1;
+  Index vertex = -1;
+  Vec2 force;
+};
+
 class Condensation {
  public:
   /// Factorises the stiffness of the intact rock. @throws NumericalError when nothing holds it
   Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, const Held& held);
   ~Condensation();
+
+  /// Adds a load on the rock; before any unknown is followed. Loads are numbered as they come.
+  void add_load(std::vector<PointLoad> forces);
 
   /// Makes the unknowns those given; those that it holds already, in the same place, are kept.
   void follow(const std::vector<JumpUnknown>& unknowns);
@@ -27,9 +38,14 @@ class Condensation {
   /// S_ij [Pa m/m]: force of unknown i by a unit of unknown j, i >= j.
   const double* row(std::size_t i) const { return stiffness_.data() + i * (i + 1) / 2; }
 
-  /// Displacement [m] of all vertices by given jumps [m]; of a vertex on the path, that of the sector
-  /// that no unknown holds.
-  std::vector<Vec2> displacement(std::span<const double> jumps) const;
+  /// Force of a unit of a load on unknown i [m2/m per unit].
+  double force(std::size_t load, std::size_t i) const;
+  /// Work that a unit of load `a` does on what a unit of load `b` moves in the intact rock [J/m].
+  double compliance(std::size_t a, std::size_t b) const;
+
+  /// Displacement [m] of all vertices by given jumps [m] and loads; of a vertex on the path, that of the
+  /// sector that no unknown holds. @param loads how many units of each; empty: none
+  std::vector<Vec2> displacement(std::span<const double> jumps, std::span<const double> loads = {}) const;
 
  private:
   struct Factor;

@@ -145,12 +145,14 @@ void members(State& s, V&& v) {
   v("tips", s.tips);
   v("well_pressure", s.well_pressure);
   v("well_before", s.well_before);
+  v("bore", s.bore);
   v("connected", s.connected);
   v("breakdown_time", s.breakdown_time);
   v("injected", s.injected);
   v("leaked", s.leaked);
   v("initial_fracture", s.initial_fracture);
   v("initial_well", s.initial_well);
+  v("initial_bore", s.initial_bore);
   v("energies", s.energies);
   v("initial", s.initial);
   v("rejected", s.rejected);

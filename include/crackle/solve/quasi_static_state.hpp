@@ -77,10 +77,12 @@ struct State {
   std::vector<Tip> tips;
   double well_pressure = 0.0;  ///< [Pa]
   double well_before = 0.0;    ///< at the beginning of the step [Pa]
+  double bore = 0.0;           ///< fluid in the wellbore, where it is in the mesh [m2]
   std::uint8_t connected = 1;  ///< the well with the fracture
   double breakdown_time = -std::numeric_limits<double>::infinity();
   double injected = 0.0, leaked = 0.0;                ///< [m2]
   double initial_fracture = 0.0, initial_well = 0.0;  ///< fluid [m2], pressure [Pa]
+  double initial_bore = 0.0;                          ///< fluid [m2]
   Energies energies;
   Energies initial;                           ///< what the initial state keeps
   std::int64_t rejected = 0, iterations = 0;  ///< steps taken back; of Newton

@@ -22,7 +22,13 @@ std::size_t corner_of(const std::array<Index, 3>& triangle, Index vertex) {
 }  // namespace
 
 struct Condensation::Factor {
+  struct Load {
+    std::vector<PointLoad> corners;
+    Eigen::VectorXd force, response;  // on the intact mesh's unknowns
+    std::vector<double> on_jumps;     // per column
+  };
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  std::vector<Load> loads;
 };
 
 Condensation::~Condensation() = default;
@@ -61,6 +67,24 @@ Condensation::Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, c
         "static condensation: the stiffness matrix is singular; is the rock held by nothing?");
 }
 
+void Condensation::add_load(std::vector<PointLoad> forces) {
+  Factor::Load load{std::move(forces), Eigen::VectorXd::Zero(factor_->solver.rows()), {}, {}};
+  for (const PointLoad& corner : load.corners) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      const Index row = equation_[2 * at(corner.vertex) + a];
+      if (row >= 0) load.force[row] += dot(corner.force, axis[a]);
+    }
+  }
+  load.response = factor_->solver.solve(load.force);
+  factor_->loads.push_back(std::move(load));
+}
+
+double Condensation::force(std::size_t load, std::size_t i) const { return factor_->loads[load].on_jumps[i]; }
+
+double Condensation::compliance(std::size_t a, std::size_t b) const {
+  return factor_->loads[a].force.dot(factor_->loads[b].response);
+}
+
 double Condensation::overlap(const JumpUnknown& a, const JumpUnknown& b) const {
   double sum = 0.0;
   for (const Index t : a.triangles) {
@@ -93,6 +117,16 @@ void Condensation::append(const JumpUnknown& unknown) {
   std::sort(column.force.begin(), column.force.end());
   column.force.erase(std::unique(column.force.begin(), column.force.end()), column.force.end());
   for (auto& [row, value] : column.force) value = force[row];
+  for (Factor::Load& load : factor_->loads) {
+    double f = 0.0;
+    for (const PointLoad& corner : load.corners) {
+      if (corner.vertex == unknown.vertex &&
+          std::binary_search(unknown.triangles.begin(), unknown.triangles.end(), corner.triangle))
+        f += dot(corner.force, unknown.direction);
+    }
+    for (const auto& [row, value] : column.force) f -= value * load.response[row];
+    load.on_jumps.push_back(f);
+  }
   const Eigen::VectorXd response = factor_->solver.solve(force);
   columns_.push_back(std::move(column));
   for (const Column& other : columns_) {
@@ -108,13 +142,16 @@ void Condensation::follow(const std::vector<JumpUnknown>& unknowns) {
     if (size_ < columns_.size()) {
       columns_.resize(size_);
       stiffness_.resize(size_ * (size_ + 1) / 2);
+      for (Factor::Load& load : factor_->loads) load.on_jumps.resize(size_);
     }
     append(unknowns[size_]);
   }
 }
 
-std::vector<Vec2> Condensation::displacement(std::span<const double> jumps) const {
+std::vector<Vec2> Condensation::displacement(std::span<const double> jumps,
+                                             std::span<const double> loads) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(factor_->solver.rows());
+  for (std::size_t l = 0; l < loads.size(); ++l) force += loads[l] * factor_->loads[l].force;
   for (std::size_t k = 0; k < jumps.size(); ++k) {
     for (const auto& [row, value] : columns_[k].force) force[row] -= value * jumps[k];
   }

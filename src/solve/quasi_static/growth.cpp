@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "bore.hpp"
 #include "crackle/core/errors.hpp"
 #include "record.hpp"
 
@@ -49,7 +50,7 @@ std::vector<Index> ahead_of(const Equations& e, Index vertex, Vec2 direction) {
 
 // Mean effective stress of triangles [Pa], by area.
 Sym2 mean_stress(const Equations& e, const State& state, const std::vector<Index>& triangles) {
-  const std::vector<Vec2> u = e.rock.displacement(state.jumps);
+  const std::vector<Vec2> u = displacement(e, state);
   Sym2 sum;
   double area = 0.0;
   for (const Index t : triangles) {

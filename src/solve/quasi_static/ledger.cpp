@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "bore.hpp"
+
 namespace crackle::quasi_static {
 namespace {
 
@@ -83,6 +85,7 @@ double opened(const Equations& e, const State& state) {
 Energies kept(const Equations& e, const State& state) {
   Energies k;
   k.strain = strain_energy(e, state);
+  add_bore_energies(e, state, k);
   for (std::size_t c = 0; c < state.cells.size(); ++c) {
     const Cell& cell = state.cells[c];
     const PathEdge& edge = e.path.edges()[c];

@@ -6,6 +6,8 @@
 #include <Eigen/SparseLU>
 #include <cmath>
 
+#include "bore.hpp"
+
 namespace crackle::quasi_static {
 namespace {
 
@@ -42,7 +44,8 @@ class System {
         if (s_.cells[c].wet) pressure_[c] = fluid_++;
       }
       first_inlet_ = fluid_;
-      if (s_.connected) fluid_ += static_cast<Index>(s_.inlets.size());
+      for (const Inlet& inlet : s_.inlets)
+        inlet_.push_back(s_.connected && pressure_[at(inlet.cell)] >= 0 ? fluid_++ : -1);
       well_ = fluid_++;
     }
   }
@@ -60,6 +63,7 @@ class System {
     fluid_entries_.clear();
     rock_scale_ = fluid_scale_ = fluid_error_ = fluid_noise_ = 0.0;
     add_rock();
+    add_bore();
     add_faces();
     if (fluid_ == 0) return;
     add_cells();
@@ -125,9 +129,8 @@ class System {
     for (std::size_t c = 0; c < s_.cells.size(); ++c) {
       if (pressure_[c] >= 0) state.cells[c].pressure += share * pressure_unit * fluid[pressure_[c]];
     }
-    if (s_.connected) {
-      for (std::size_t i = 0; i < s_.inlets.size(); ++i)
-        state.inlets[i].rate += share * rate_unit * fluid[first_inlet_ + static_cast<Index>(i)];
+    for (std::size_t i = 0; i < s_.inlets.size(); ++i) {
+      if (inlet_[i] >= 0) state.inlets[i].rate += share * rate_unit * fluid[inlet_[i]];
     }
     state.well_pressure += share * pressure_unit * fluid[well_];
   }
@@ -144,6 +147,20 @@ class System {
       }
     }
     rock_scale_ += rock_residual_.lpNorm<1>();
+  }
+
+  // What excavation took from the wall of the wellbore, and the pressure of the well on it.
+  void add_bore() {
+    if (e_.bore == 0.0) return;
+    const std::array<double, 2> loads = wall_loads(e_, s_);
+    for (Index k = 0; k < jumps_; ++k) {
+      for (std::size_t l = 0; l < 2; ++l) {
+        const double load = loads[l] * e_.rock.force(l, at(k));
+        rock_residual_[k] -= load;
+        rock_scale_ += std::abs(load);
+      }
+      if (well_ >= 0) by_fluid_.emplace_back(k, well_, -e_.rock.force(pressed, at(k)) * pressure_unit);
+    }
   }
 
   // Tractions and pressure on the faces, half an edge to each end.
@@ -271,37 +288,42 @@ class System {
   void add_well() {
     const Well& well = e_.scene.well;
     double out = 0.0;
-    const auto by_rate = [&](Index row, std::size_t i, double slope) {
-      fluid_entries_.emplace_back(row, first_inlet_ + static_cast<Index>(i), slope * rate_unit);
+    const auto by_rate = [&](Index row, Index inlet, double slope) {
+      fluid_entries_.emplace_back(row, inlet, slope * rate_unit);
     };
-    if (s_.connected) {
-      for (std::size_t i = 0; i < s_.inlets.size(); ++i) {
-        const Inlet& inlet = s_.inlets[i];
-        const Index row = first_inlet_ + static_cast<Index>(i), cell = inlet.cell;
-        out += inlet.rate;
-        fluid_residual_[pressure_[at(cell)]] -= dt_ * inlet.rate;
-        by_rate(pressure_[at(cell)], i, -dt_);
-        by_rate(well_, i, dt_);
-        // κ (2/h) (p_w − p − loss) − q = 0
-        const double a = 2.0 / e_.path.edges()[at(cell)].length;
-        const ValueSlope k = e_.scene.fluid.conductivity(aperture(cell));
-        const ValueSlope loss = well.loss(inlet.rate, s_.time - s_.breakdown_time);
-        const double drop = s_.well_pressure - s_.cells[at(cell)].pressure - loss.value;
-        const ValueSlope flow = e_.scene.fluid.flow(a * k.value * drop);
-        fluid_residual_[row] = flow.value - inlet.rate;
-        fluid_error_ += dt_ * std::abs(fluid_residual_[row]);
-        fluid_entries_.emplace_back(row, well_, flow.slope * a * k.value * pressure_unit);
-        by_pressure(row, cell, -flow.slope * a * k.value);
-        by_rate(row, i, -flow.slope * a * k.value * loss.slope - 1.0);
-        by_aperture(row, cell, flow.slope * a * k.slope * drop);
-      }
+    for (std::size_t i = 0; i < s_.inlets.size(); ++i) {
+      const Inlet& inlet = s_.inlets[i];
+      const Index row = inlet_[i], cell = inlet.cell;
+      if (row < 0) continue;
+      out += inlet.rate;
+      fluid_residual_[pressure_[at(cell)]] -= dt_ * inlet.rate;
+      by_rate(pressure_[at(cell)], row, -dt_);
+      by_rate(well_, row, dt_);
+      // κ (2/h) (p_w − p − loss) − q = 0
+      const double a = 2.0 / e_.path.edges()[at(cell)].length;
+      const ValueSlope k = e_.scene.fluid.conductivity(aperture(cell));
+      const ValueSlope loss = well.loss(inlet.rate, s_.time - s_.breakdown_time);
+      const double drop = s_.well_pressure - s_.cells[at(cell)].pressure - loss.value;
+      const ValueSlope flow = e_.scene.fluid.flow(a * k.value * drop);
+      fluid_residual_[row] = flow.value - inlet.rate;
+      fluid_error_ += dt_ * std::abs(fluid_residual_[row]);
+      fluid_entries_.emplace_back(row, well_, flow.slope * a * k.value * pressure_unit);
+      by_pressure(row, cell, -flow.slope * a * k.value);
+      by_rate(row, row, -flow.slope * a * k.value * loss.slope - 1.0);
+      by_aperture(row, cell, flow.slope * a * k.slope * drop);
     }
-    const double stored = well.storage * (s_.well_pressure - s_.well_before);
+    double stored = well.storage * (s_.well_pressure - s_.well_before);
+    if (e_.bore > 0.0) {
+      stored += fluid_in_bore(e_, s_) - s_.bore;
+      const double density = e_.scene.fluid.density(s_.well_pressure).value;
+      for (Index k = 0; k < jumps_; ++k) by_jumps_(well_, k) += density * e_.rock.force(pressed, at(k));
+    }
     fluid_residual_[well_] = stored - dt_ * (rate_ - out);
     fluid_error_ += std::abs(fluid_residual_[well_]);
     fluid_scale_ += dt_ * (std::abs(rate_) + std::abs(out)) + std::abs(stored);
     // A well without storage that is shut off keeps its pressure.
-    const double slope = well.storage > 0.0 || s_.connected ? well.storage : 1.0;
+    const double storage = well_storage(e_, s_);
+    const double slope = storage > 0.0 || s_.connected ? storage : 1.0;
     fluid_entries_.emplace_back(well_, well_, slope * pressure_unit);
   }
 
@@ -311,6 +333,7 @@ class System {
   bool careful_ = false;
   Index jumps_ = 0, fluid_ = 0, first_inlet_ = 0, well_ = -1;
   std::vector<Index> pressure_;  // per cell: fluid unknown, -1: none
+  std::vector<Index> inlet_;     // per inlet: the same
   Eigen::MatrixXd stiffness_, by_jumps_;
   Eigen::VectorXd rock_residual_, fluid_residual_;
   std::vector<Eigen::Triplet<double>> by_fluid_, fluid_entries_;

@@ -22,6 +22,7 @@ struct Equations {
   const Condensation& rock;
   const std::vector<InterfaceLaw>& laws;  // one per path edge
   const std::optional<MatrixDiffusion>& matrix;
+  double bore = 0.0;  // volume of the wellbore in the mesh as it is drilled [m2]; 0: none
 };
 
 /// Opening [m] at the two ends of a path edge, and slip.

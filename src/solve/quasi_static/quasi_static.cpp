@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "bore.hpp"
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/estimates.hpp"
 #include "growth.hpp"
@@ -34,8 +35,9 @@ void check(const QuasiStaticScene& scene) {
   };
   require(!scene.wings.empty(), "no fracture to start from");
   for (const Wing& wing : scene.wings)
-    require(wing.open >= 1 && wing.open < wing.path.size() + (wing.free ? 1 : 0),
-            "a wing needs an open edge and one ahead of it");
+    require((wing.open >= 1 || qs::on_wall(*scene.mesh, wing.start)) && !wing.path.empty() &&
+                wing.open < wing.path.size() + (wing.free ? 1 : 0),
+            "a wing needs an open edge, or to start at the wall of a wellbore, and an edge ahead of it");
   require(scene.slip || scene.joints.empty(), "joints slip: give slip");
   require(scene.tensile_strength > 0.0 && scene.fracture_energy > 0.0,
           "tensile strength and fracture energy have to be positive");
@@ -58,7 +60,8 @@ class QuasiStatic::Solver {
         bulk_(*scene_.mesh, scene_.stiffness, 1.0, scene_.stress, {}),
         path_(scene_.mesh, scene_.held, scene_.slip),
         rock_(scene_.mesh, bulk_, scene_.held),
-        equations_{scene_, bulk_, path_, rock_, laws_, matrix_} {
+        equations_{scene_, bulk_, path_, rock_, laws_, matrix_, qs::bore_volume(*scene_.mesh)} {
+    if (equations_.bore > 0.0) qs::load_wall(scene_, rock_);
     if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
   }
 
@@ -240,6 +243,7 @@ class QuasiStatic::Solver {
     }
     state_.initial_fracture = qs::fracture_volume(state_);
     state_.initial_well = state_.well_pressure;
+    state_.bore = state_.initial_bore = qs::fluid_in_bore(equations_, state_);
   }
 
   // Length of the next step: it lands on changes of the schedule and on breakdown.
@@ -253,7 +257,7 @@ class QuasiStatic::Solver {
       // a line, in rows enough to be drawn
       const double rise =
           std::min(breakdown - state_.well_pressure, 0.05 * (breakdown - scene_.pore_pressure));
-      dt = rate > 0.0 ? std::max(rise * scene_.well.storage / rate, control.smallest)
+      dt = rate > 0.0 ? std::max(rise * qs::well_storage(equations_, state_) / rate, control.smallest)
                       : std::numeric_limits<double>::infinity();
     }
     const double stop = std::min(end, change);
@@ -315,7 +319,8 @@ class QuasiStatic::Solver {
     bool changed = false;
     for (std::size_t c = 0; c < state.cells.size(); ++c) {
       const Index parent = path_.edges()[c].parent;
-      if (state.cells[c].wet || parent < 0 || !state.cells[at(parent)].wet) continue;
+      if (state.cells[c].wet || parent == qs::of_joint) continue;
+      if (parent < 0 ? !state.connected : !state.cells[at(parent)].wet) continue;
       const auto w = qs::openings(path_.edges()[c], state.jumps);
       const bool enters = scene_.wetting == Wetting::broken
                               ? std::min(w[0], w[1]) >= laws_[c].broken_opening()
@@ -370,6 +375,7 @@ class QuasiStatic::Solver {
         cell.points[i].max_opening = std::max(cell.points[i].max_opening, w[i]);
       if (cell.exposed > until) expose(trial, cell, before, laws_[c].damage(cell.points[0].max_opening), dt);
     }
+    trial.bore = qs::fluid_in_bore(equations_, trial);
     trial.injected += rate * dt;
     qs::account(equations_, state_, trial, dt, rate);
   }

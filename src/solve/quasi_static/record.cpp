@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bore.hpp"
+
 namespace crackle::quasi_static {
 namespace {
 
@@ -49,7 +51,8 @@ QuasiStaticRow row_of(const Equations& e, const State& state) {
   row.time = state.time;
   row.well_pressure = state.well_pressure;
   row.injected = state.injected;
-  row.well_stored = e.scene.well.storage * (state.well_pressure - state.initial_well);
+  row.well_stored =
+      e.scene.well.storage * (state.well_pressure - state.initial_well) + state.bore - state.initial_bore;
   row.fracture_volume = fracture_volume(state);
   row.leaked = state.leaked;
   row.energies = state.energies;
@@ -76,8 +79,12 @@ QuasiStaticRow row_of(const Equations& e, const State& state) {
   }
   row.elastic_length = row.damaged_length;
   for (const Tip& tip : state.tips) row.elastic_length -= behind_front(e, state, tip.cell);
-  row.mean_opening /= wet;
-  row.contact_fraction = touching / wet;
+  if (wet > 0.0) {
+    row.mean_opening /= wet;
+    row.contact_fraction = touching / wet;
+  } else {
+    row.least_pressure = e.scene.pore_pressure;
+  }
   for (const Inlet& inlet : state.inlets) {
     const auto n = static_cast<double>(state.inlets.size());
     row.fracture_pressure += state.cells[at(inlet.cell)].pressure / n;
@@ -109,7 +116,7 @@ std::vector<FractureCell> cells_of(const Equations& e, const State& state) {
 
 std::vector<Vec2> corners_of(const Equations& e, const State& state) {
   const Mesh& mesh = *e.scene.mesh;
-  const std::vector<Vec2> u = e.rock.displacement(state.jumps);
+  const std::vector<Vec2> u = displacement(e, state);
   std::vector<Vec2> corners;
   for (const auto& triangle : mesh.triangles) {
     for (const Index v : triangle) corners.push_back(u[at(v)]);
