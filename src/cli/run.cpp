@@ -173,8 +173,8 @@ class Run {
     const RunOutput output = output_of_run(scene_, mesh->triangle_count(), steps);
     require_disk(scene_, mesh->triangle_count(), output, folder_.path());
     memory_.step_length = steps.length;
-    say(fmt::format("{} steps of {:.3g} s on {} threads; {}", steps.count, steps.length, threads_,
-                    needs_text(scene_, mesh->triangle_count(), output)));
+    say(fmt::format("{} steps of {:.3g} s on {} threads; {}", steps.after(simulation_->ramp_end()),
+                    steps.length, threads_, needs_text(scene_, mesh->triangle_count(), output)));
     folder_.write_resolved(scene_);
   }
 
