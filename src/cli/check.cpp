@@ -33,8 +33,12 @@ void print_mesh(const Case& scene, const Mesh& with_core, const Mesh& mesh, cons
   const auto interior = std::count_if(mesh.edges.begin(), mesh.edges.end(),
                                       [](const Edge& e) { return e.kind == EdgeKind::interior; });
   const MeshMeasure measure = measure_mesh(mesh);
-  fmt::print("  {} triangles, {} vertices, {} edges, {} of them with a cohesive element\n",
-             mesh.triangle_count(), mesh.vertex_count(), mesh.edge_count(), interior);
+  const std::string& insertion = scene.cohesive.insertion;
+  fmt::print("  {} triangles, {} vertices, {} edges{}\n", mesh.triangle_count(), mesh.vertex_count(),
+             mesh.edge_count(),
+             insertion == "all"         ? fmt::format(", {} of them with a cohesive element", interior)
+             : insertion == "on_demand" ? fmt::format(", {} of them may receive a cohesive element", interior)
+                                        : "");
   if (measure.wellbore_edges > 0) {
     fmt::print("  wellbore of {} edges; {} triangles of its core are excavated\n", measure.wellbore_edges,
                with_core.triangle_count() - mesh.triangle_count());
@@ -71,17 +75,15 @@ void print_cost(const Case& scene, const Mesh& mesh, const Steps& steps, const W
   fmt::print("  wall time about {} on {} thread{}: mesh {}, geostatic stage {}, steps {}, output {}\n",
              duration_text(meshing + time.total()), threads, threads == 1 ? "" : "s", duration_text(meshing),
              duration_text(time.start), duration_text(time.steps), duration_text(time.output));
-  if (time.measured) {
-    fmt::print(
-        "    ({:.0f} core-ns per triangle and step, timed just now on intact rock; fractures and a busy "
-        "machine add to it)\n",
-        time.core_ns);
-  } else {
-    fmt::print(
-        "    (not timed, the mesh has more than {} triangles: {:.0f} core-ns per triangle and step "
-        "assumed)\n",
-        largest_timed_mesh, time.core_ns);
+  if (time.ramp_end > 0.0) {
+    fmt::print("    (the elastic ramp to about {:.3g} ms is static solves: {} steps are left)\n",
+               1e3 * time.ramp_end, time.count);
   }
+  fmt::print(
+      "    ({:.1f} core-ns per triangle and step, timed just now on intact rock{}; {}a busy machine adds to "
+      "it)\n",
+      time.core_ns, time.simulated ? "" : ", the static solves not timed",
+      time.breaks ? "taken as more with fractures; " : "");
 }
 
 void check_quasi_static(const Case& scene) {

@@ -7,16 +7,21 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <vector>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/lanczos.hpp"
+#include "crackle/solve/scene_warnings.hpp"
+#include "crackle/solve/tiles.hpp"
 #include "frames.hpp"
 #include "regime.hpp"
 
 namespace crackle {
 namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // Measured on runs of the granite wellbore, mean of 21 frames; zlib, bytes a triangle: places, and fields.
 struct FrameBytes {
@@ -31,9 +36,11 @@ constexpr double rows_field_time = 600.0;
 constexpr double checkpoint_triangle = 510.0, checkpoint_triangle_field_time = 100.0;
 constexpr double frame_seconds = 4.6e-6;  // a triangle, most of it zlib
 
-// Where nothing is timed. The geostatic solve grows faster than the mesh (fill of the factor).
-constexpr double typical_core_ns = 40.0;
-constexpr double solve_seconds_at_1e5 = 2.5, solve_growth = 1.6;
+// The geostatic solve where it is not timed: it grows faster than the mesh (fill of the factor). Measured at
+// 1e5 and 2e6 triangles.
+constexpr double solve_seconds_at_1e5 = 1.1, solve_growth = 1.42;
+// Steps of a run that breaks over those of whole rock, on demand: granite wellbore, 1e5 and 2e6 triangles.
+constexpr double with_fractures = 1.6;
 
 constexpr int timed_steps = 24;
 
@@ -67,6 +74,61 @@ RunOutput output_of(const Case& scene, double triangles, const FrameBytes& bytes
       1.0 + std::min(most_frames, std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9));
   return {(frame * triangles + frame_heads) * frames + history + other_files,
           static_cast<std::int64_t>(frames)};
+}
+
+// The rock of a scene as its run begins, at rest.
+struct WholeRock {
+  State state;
+  Bulk bulk;
+  std::optional<Cohesive> cohesive;
+
+  explicit WholeRock(const Scene& scene)
+      : state(scene.law && !scene.insertion.on_demand ? make_split_state(scene.mesh)
+                                                      : make_tied_state(scene.mesh)),
+        bulk(bulk_of(scene)) {
+    set_mass(state, bulk);
+    if (!scene.absorbing_boundary && !scene.free_boundary && scene.loads.empty())
+      fix_nodes(state, EdgeKind::outer);
+    if (!scene.law) return;
+    const EdgeMaterials materials = edge_materials(scene);
+    if (!scene.insertion.on_demand) {
+      insert_all(state);
+      set_materials(state, scene, materials);
+    }
+    cohesive.emplace(scene.law, materials.all);
+  }
+};
+
+// Nothing slips in its geostatic stage, whatever the scene is.
+Scene without_stress(Scene scene) {
+  scene.stress = {};
+  for (RockMass& layer : scene.layers) layer.stress = {};
+  scene.initial_pressure = 0.0;
+  if (scene.fluid) scene.fluid->reference_pressure = 0.0;
+  return scene;
+}
+
+// A step of the rock alone [s].
+double step_of_rock(const Scene& scene, double dt) {
+  WholeRock rock(without_stress(scene));
+  if (rock.bulk.viscous()) rock.state.strain_rate.resize(at(block_count(scene.mesh->triangle_count())));
+  const Tiles::Physics physics{rock.bulk, rock.cohesive ? &*rock.cohesive : nullptr};
+  Tiles tiles(rock.state, physics);
+  const bool screened = scene.insertion.on_demand || scene.damage.law;
+  std::vector<std::uint8_t> stressed(screened ? scene.mesh->triangles.size() : 0);
+  std::vector<char> tile_stressed(at(block_count(scene.mesh->triangle_count())));
+  const StressScreen screen{scene.cohesive.tensile_strength, scene.cohesive.cohesion,
+                            scene.cohesive.tan_friction};
+  const auto step = [&] { tiles.move(rock.state, physics, dt, screen, stressed, tile_stressed); };
+  step();  // first touch of the memory
+  return undisturbed_seconds(timed_steps, step);
+}
+
+// When the wall of the wellbore comes to the share of its strength at which elements are inserted [s].
+double ramp_end_by_theory(Scene scene, double end_time) {
+  scene.cohesive.tensile_strength *= scene.insertion.threshold;
+  const Onset onset = expected_onset(scene, end_time);
+  return onset.expected ? std::min(onset.time, end_time) : 0.0;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -131,24 +193,13 @@ Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh
 }
 
 StableStep stable_step_of(const Scene& scene) {
-  const bool split = scene.law && !scene.insertion.on_demand;
-  State state = split ? make_split_state(scene.mesh) : make_tied_state(scene.mesh);
-  const Bulk bulk = bulk_of(scene);
-  set_mass(state, bulk);
-  if (!scene.absorbing_boundary && !scene.free_boundary && scene.loads.empty())
-    fix_nodes(state, EdgeKind::outer);
+  const WholeRock rock(scene);
   if (!scene.law) {
-    const StableStep proven = stable_step(state, bulk, nullptr);
-    return scene.damage.law ? sharpened(proven, state, bulk, nullptr) : proven;
+    const StableStep proven = stable_step(rock.state, rock.bulk, nullptr);
+    return scene.damage.law ? sharpened(proven, rock.state, rock.bulk, nullptr) : proven;
   }
-  const EdgeMaterials materials = edge_materials(scene);
-  if (split) {
-    insert_all(state);
-    set_materials(state, scene, materials);
-  }
-  const Cohesive cohesive(scene.law, materials.all);
-  StableStep stable = stable_step(state, bulk, &cohesive);
-  if (!split) stable.limit *= scene.insertion.step;
+  StableStep stable = stable_step(rock.state, rock.bulk, &*rock.cohesive);
+  if (scene.insertion.on_demand) stable.limit *= scene.insertion.step;
   return stable;
 }
 
@@ -166,28 +217,30 @@ WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const St
   WallTime time;
   time.output =
       frame_seconds * triangles * static_cast<double>(output_of_run(scene, triangles, steps).frames);
-  if (triangles <= largest_timed_mesh) {
-    // Without stress nothing slips in the geostatic stage, whatever the scene is.
-    Scene probe = solver_scene;
-    probe.stress = {};
-    for (RockMass& layer : probe.layers) layer.stress = {};
-    probe.initial_pressure = 0.0;
-    if (probe.fluid) probe.fluid->reference_pressure = 0.0;
+  time.simulated = triangles <= largest_solved_mesh;
+  double step = 0.0;
+  if (time.simulated) {
     const auto start = std::chrono::steady_clock::now();
-    Simulation simulation(std::move(probe));
+    Simulation simulation(solver_scene.may_ramp() ? solver_scene : without_stress(solver_scene));
     time.start = seconds_since(start);
+    time.ramp_end = std::min(simulation.ramp_end(), scene.run.end_time);
     simulation.step(steps.length);  // first touch of the memory
-    const double step = undisturbed_seconds(timed_steps, [&] { simulation.step(steps.length); });
+    step = undisturbed_seconds(timed_steps, [&] { simulation.step(steps.length); });
     const double row =
         undisturbed_seconds(timed_steps / 4, [&] { simulation.step_and_account(steps.length); });
     const double rows = std::min(1.0, steps.length / scene.output.history_every);  // a step
-    time.core_ns = 1e9 * (step + rows * std::max(0.0, row - step)) * threads / static_cast<double>(triangles);
-    time.measured = true;
+    step += rows * std::max(0.0, row - step);
   } else {
-    time.core_ns = typical_core_ns;
+    if (solver_scene.may_ramp()) time.ramp_end = ramp_end_by_theory(solver_scene, scene.run.end_time);
     time.start = solve_seconds_at_1e5 * std::pow(1e-5 * triangles, solve_growth);
+    step = step_of_rock(solver_scene, steps.length);
   }
-  time.steps = 1e-9 * time.core_ns / threads * triangles * static_cast<double>(steps.count);
+  time.core_ns = 1e9 * step * threads / static_cast<double>(triangles);
+  time.count = steps.after(time.ramp_end);
+  time.steps = step * static_cast<double>(time.count);
+  const Onset onset = expected_onset(solver_scene, scene.run.end_time);
+  time.breaks = solver_scene.insertion.on_demand && onset.expected && onset.time < scene.run.end_time;
+  if (time.breaks) time.steps *= with_fractures;
   return time;
 }
 

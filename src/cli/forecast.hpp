@@ -17,6 +17,8 @@ namespace crackle {
 struct Steps {
   std::int64_t count = 0;
   double length = 0.0;  ///< [s]
+  /// Those that are left at a time [s].
+  std::int64_t after(double time) const { return count - static_cast<std::int64_t>(time / length + 1e-9); }
 };
 /// @param allow_unstable any run.time_step
 Steps steps_of_run(const Case& scene, const StableStep& stable, const Mesh& mesh,
@@ -61,17 +63,20 @@ StableStep stable_step_of(const Scene& scene);
 
 /// Wall time of the parts of a run.
 struct WallTime {
-  bool measured = false;  ///< by a few steps of this scene on this machine
-  double core_ns = 0.0;   ///< per triangle and step
-  double start = 0.0;     ///< geostatic stage [s]
-  double steps = 0.0;     ///< [s]
-  double output = 0.0;    ///< [s]
+  double core_ns = 0.0;    ///< per triangle and step of rock that is whole: a few steps of it on this machine
+  bool simulated = false;  ///< with all else there is in a step, and the geostatic stage is timed too
+  double ramp_end = 0.0;   ///< of what static solves do without steps [s of the run]; 0: no ramp
+  std::int64_t count = 0;  ///< of the steps
+  bool breaks = false;     ///< their time is that of a run with fractures
+  double start = 0.0;      ///< geostatic stage [s]
+  double steps = 0.0;      ///< [s]
+  double output = 0.0;     ///< [s]
   double total() const { return start + steps + output; }
 };
 WallTime wall_time_of_run(const Case& scene, const Scene& solver_scene, const Steps& steps, int threads);
 
-/// Largest mesh [triangles] that wall_time_of_run() times; above, it extrapolates.
-inline constexpr Index largest_timed_mesh = 150000;
+/// Largest mesh [triangles] whose static solves wall_time_of_run() does; above, it extrapolates them.
+inline constexpr Index largest_solved_mesh = 150000;
 
 /// "1.2 GB", "35 s", "2 h 05 min": for people.
 std::string bytes_text(double bytes);

@@ -174,8 +174,9 @@ class Run {
     const RunOutput output = output_of_run(scene_, mesh->triangle_count(), steps);
     require_disk(scene_, mesh->triangle_count(), output, folder_.path());
     memory_.step_length = steps.length;
-    say(fmt::format("{} steps of {:.3g} s on {} thread{}; {}", steps.count, steps.length, threads_,
-                    threads_ == 1 ? "" : "s", needs_text(scene_, mesh->triangle_count(), output)));
+    say(fmt::format("{} steps of {:.3g} s on {} thread{}; {}", steps.after(simulation_->ramp_end()),
+                    steps.length, threads_, threads_ == 1 ? "" : "s",
+                    needs_text(scene_, mesh->triangle_count(), output)));
     folder_.write_resolved(scene_);
   }
 

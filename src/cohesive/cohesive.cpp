@@ -83,12 +83,13 @@ StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
   return {normal, shear, normal + shear + friction + given - (now.stored - before.stored)};
 }
 
-// Into the cache: what is met in the order of activation lies anywhere.
-void fetch(const State& state, Index element) {
-  const CohesiveElements& c = state.cohesive;
-  const char* const from = reinterpret_cast<const char*>(&c.histories[at(c.history_of[at(element)])]);
-  for (std::size_t byte = 0; byte < sizeof(CohesiveHistory); byte += 64) __builtin_prefetch(from + byte, 1);
-  for (const Index n : c.nodes[at(element)]) {
+// Into the cache, while those before are worked on.
+void fetch(const CohesiveHistory& h) {
+  const char* const from = reinterpret_cast<const char*>(&h);
+  for (std::size_t byte = 0; byte < sizeof h; byte += 64) __builtin_prefetch(from + byte, 1);
+}
+void fetch_nodes(const State& state, Index element) {
+  for (const Index n : state.cohesive.nodes[at(element)]) {
     __builtin_prefetch(&state.displacement[at(n)]);
     __builtin_prefetch(&state.velocity[at(n)]);
   }
@@ -307,13 +308,16 @@ void Cohesive::start_histories(State& state, std::span<const Index> elements, do
 void Cohesive::advance_histories(State& state) {
   CohesiveElements& c = state.cohesive;
   newly_broken_.clear();
-  const auto active = static_cast<Index>(c.active.size());
-  std::vector<Dissipation> partial(at(block_count(active)));
+  // In the order in which they lie: those of elements that were inserted are met with the elements' arrays.
+  const auto count = static_cast<Index>(c.histories.size());
+  std::vector<Dissipation> partial(at(block_count(count)));
   std::vector<std::vector<Index>> broken(partial.size());
-  for_each_block(active, [&](Index begin, Index end, Index block) {
+  for_each_block(count, [&](Index begin, Index end, Index block) {
     for (Index j = begin; j < end; ++j) {
-      CohesiveHistory& h = c.histories[at(c.history_of[at(c.active[at(j)])])];
-      fetch(state, c.active[at(std::min(j + 2, active - 1))]);
+      CohesiveHistory& h = c.histories[at(j)];
+      if (c.status[at(h.element)] == CohesiveStatus::intact) continue;
+      fetch(c.histories[at(std::min(j + 4, count - 1))]);
+      fetch_nodes(state, c.histories[at(std::min(j + 2, count - 1))].element);
       const bool was_intact = c.status[at(h.element)] == CohesiveStatus::active;
       evaluate_active(state, h, partial[at(block)]);
       if (was_intact && c.status[at(h.element)] == CohesiveStatus::broken)

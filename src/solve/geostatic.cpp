@@ -51,6 +51,12 @@ AddLoads wall_loads(State& wet, std::optional<Fluid>& fluid) {
 
 }  // namespace
 
+bool Scene::may_ramp() const {
+  const bool whole = (law && insertion.on_demand) || damage.law;
+  return fluid && fast_forward && whole && damage.cut.empty() && cracks.empty() && joints.empty() &&
+         !absorbing_boundary && !free_boundary && loads.empty();
+}
+
 // Wall of the wellbore and pre-cut cracks: where the fluid is at the start.
 std::vector<Index> Simulation::wetted_edges(const Scene& scene) {
   std::vector<Index> edges;
@@ -79,11 +85,7 @@ std::vector<Vec2> Simulation::geostatic_displacement() {
   }
   const StaticSolver solver(scene_.mesh, bulk_, fixed);
   std::vector<Vec2> displacement = solver.displacement(wall_loads(wet, fluid));
-  const bool whole = (scene_.law && scene_.insertion.on_demand) || scene_.damage.law;
-  if (fluid && scene_.fast_forward && whole && scene_.damage.cut.empty() && scene_.cracks.empty() &&
-      scene_.joints.empty() && !scene_.absorbing_boundary && !scene_.free_boundary && scene_.loads.empty()) {
-    find_ramp(solver, wet, fluid, displacement);
-  }
+  if (scene_.may_ramp()) find_ramp(solver, wet, fluid, displacement);
   return displacement;
 }
 

@@ -93,6 +93,8 @@ struct Scene : RockMass {
   double thickness = 1.0;     ///< for magnitudes [m]
   double slip_rate = 1e-2;    ///< at which slip of a joint or in general contact is an event [m/s]
   bool breaks() const { return law != nullptr || damage.law != nullptr; }
+  /// The rock is whole and held, and a pump presses it: the elastic ramp may be found by static solves.
+  bool may_ramp() const;
   /// Of a layer by its number, as in layer_of_triangle.
   const RockMass& rock(std::size_t layer) const {
     if (layer == 0) return *this;

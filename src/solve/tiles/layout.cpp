@@ -178,8 +178,8 @@ void Tiles::number_corners(const State& state, const Bulk& bulk, Index i) {
   tile.damaged.clear();
   if (bulk.viscous()) tile.viscosity.assign(at(groups), {});
   bool uniform = true;
-  for (Index t = tile.begin; t < tile.end; ++t)
-    uniform = uniform && bulk.in_situ(t) == bulk.in_situ(tile.begin);
+  tile.stress = bulk.in_situ(tile.begin);
+  for (Index t = tile.begin; t < tile.end; ++t) uniform = uniform && bulk.in_situ(t) == tile.stress;
   if (!uniform) tile.in_situ.assign(at(3 * groups), {});
   for (Index t = 0; t < tile.end - tile.begin; ++t) {
     const Place p = tile.place(t);

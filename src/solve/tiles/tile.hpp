@@ -68,6 +68,7 @@ struct Tiles::Tile {
   std::vector<std::uint16_t> corners;  // [group][corner][lane]
   std::vector<tiles::Row> sides;       // [group][from corner 0 to 1, to 2: x y x y], reference
   std::vector<Damaged> damaged;        // fill up their groups like triangles that are not there
+  Sym2 stress;                         // in-situ, where it is the same in all triangles
   std::vector<tiles::Row> in_situ;     // [group][component]; empty: the same in all triangles
   std::vector<tiles::Row> viscosity;   // [group]
   std::vector<Batch> batches;

@@ -51,7 +51,7 @@ void Tiles::fetch_owned(const State& state, const Tile& tile) {
   for (const Vec2* part : tile.part) __builtin_prefetch(part);
 }
 
-// What a tile copies of nodes that lie with others: its own ones are among its Reads.
+// What a tile copies of nodes and elements that lie with others: its own nodes are among its Reads.
 void Tiles::fetch_nodes(const State& state, const Tile& tile) {
   const Index first = tile.own.empty() ? 0 : tile.own.front().node;
   const Index last = tile.own.empty() ? 0 : tile.own.back().node;
@@ -60,6 +60,7 @@ void Tiles::fetch_nodes(const State& state, const Tile& tile) {
     __builtin_prefetch(&state.displacement[at(run.node)]);
     __builtin_prefetch(&state.displacement[at(run.node + run.count - 1)]);
   }
+  for (const Tile::Added& a : tile.added) __builtin_prefetch(&state.cohesive.force[at(a.element)]);
 }
 
 Tiles::Tiles(Tiles&&) noexcept = default;
@@ -111,7 +112,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
                        .displacement = s.displacement.data(),
                        .force = s.force.data(),
                        .stiffness = {},
-                       .in_situ = bulk.in_situ(tile.begin),
+                       .in_situ = tile.stress,
                        .in_situ_rows = tile.in_situ.empty() ? nullptr : tile.in_situ.front().lane.data(),
                        .weight = 0.0,
                        .velocity = nullptr,
