@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -14,6 +18,7 @@
 #include "crackle/core/version.hpp"
 #include "crackle/io/dfit.hpp"
 #include "load.hpp"
+#include "progress.hpp"
 
 namespace {
 
@@ -219,6 +224,14 @@ void shorten_spinning(char** argv) {
   execv("/proc/self/exe", argv);  // returns only where it cannot: then as it is
 }
 
+// Where standard input, output or error is closed, the next file opened would take its place, and what is
+// meant for the terminal would go into that file.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // NOLINT(cppcoreguidelines-pro-type-vararg)
+  }
+}
+
 // Large arrays go back to the system when they are done with. By default the C library keeps up to 32 MB of
 // each, in holes that what comes later does not fit into: a fifth of the peak of a run with checkpoints.
 void return_large_arrays() { mallopt(M_MMAP_THRESHOLD, 1 << 20); }
@@ -226,18 +239,22 @@ void return_large_arrays() { mallopt(M_MMAP_THRESHOLD, 1 << 20); }
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   shorten_spinning(argv);
   return_large_arrays();
   try {
-    return CommandLine().run(argc, argv);
+    const int code = CommandLine().run(argc, argv);
+    if (std::fflush(stdout) != 0)
+      throw crackle::CaseError(fmt::format("standard output: cannot write: {}", std::strerror(errno)));
+    return code;
   } catch (const crackle::Error& error) {
-    fmt::print(stderr, "crackle: {}\n", error.what());
+    crackle::print_line(fmt::format("crackle: {}", error.what()));
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "crackle: out of memory: the mesh or a file is too large for this machine\n");
+    crackle::print_line("crackle: out of memory: the mesh or a file is too large for this machine");
     return static_cast<int>(crackle::ExitCode::bad_case);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "crackle: {}\n", error.what());
+    crackle::print_line(fmt::format("crackle: {}", error.what()));
     return 1;
   }
 }

@@ -188,7 +188,7 @@ class FieldTimeRun {
 
   void say(const std::string& line) {
     folder_.log(line);
-    if (!options_.quiet) fmt::print(stderr, "{}\n", line);
+    if (!options_.quiet) print_line(line);
   }
   bool at_end() const { return stage_->time() >= scene_.run.end_time; }
   Progress::Now now() const {

@@ -161,11 +161,19 @@ void write_text(hid_t file, const std::string& text) {
   if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0) throw std::bad_alloc();
 }
 
+/// Bytes that a data set has in the file; 0 where it claims more than there are.
+std::size_t stored_bytes(hid_t file, hid_t set) {
+  hsize_t there = 0;
+  H5Fget_filesize(file, &there);
+  const hsize_t stored = H5Dget_storage_size(set);
+  return stored <= there ? static_cast<std::size_t>(stored) : 0;
+}
+
 std::string read_text(hid_t file, const std::string& name) {
   const Handle set(H5Dopen2(file, text_name, H5P_DEFAULT), H5Dclose);
   if (set < 0) refuse(name, "there is no case in it");
   const Handle type(H5Dget_type(set), H5Tclose);
-  std::string text(std::min(H5Tget_size(type), static_cast<std::size_t>(H5Dget_storage_size(set))), '\0');
+  std::string text(std::min(H5Tget_size(type), stored_bytes(file, set)), '\0');
   if (text.size() != H5Tget_size(type) || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     refuse(name, "its case cannot be read");
   text.resize(std::min(text.size(), text.find('\0')));
@@ -190,7 +198,9 @@ std::vector<std::byte> read_column(hid_t file, const std::string& name, const Co
   H5Sget_simple_extent_dims(space, shape.data(), nullptr);
   count = column.list && !shape.empty() ? shape.front() : 1;
   if (shape != shape_of(column, count)) refuse_column("has another shape");
-  if (H5Dget_storage_size(set) != count * column.item_bytes()) refuse_column("has no data");
+  const std::size_t stored = stored_bytes(file, set);
+  if (stored / column.item_bytes() != count || stored % column.item_bytes() != 0)  // the product may overflow
+    refuse_column("has no data");
   std::vector<std::byte> items(count * column.item_bytes());
   if (H5Dread(set, memory_type(column.number), H5S_ALL, H5S_ALL, H5P_DEFAULT, items.data()) < 0)
     refuse_column("cannot be read");

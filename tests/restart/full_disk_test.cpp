@@ -2,10 +2,12 @@
 //
 // Disks that are full, folders that cannot be written to or are gone: a clear error, what was written
 // before is whole, and the run can be resumed when there is room again.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -147,6 +149,31 @@ TEST_F(FullDisk, FolderThatVanishesAndComesBack) {
   EXPECT_EQ(resume(path("away")).code, 0);
   expect_same_results(path("away"), path("whole"));
   report_faults("folder moved away while it runs; resumed", 1, Left::survived);
+}
+
+// What is said on the terminal goes nowhere, and not into a file that is opened in its place.
+TEST_F(FullDisk, TerminalThatIsFullOrClosed) {
+  const std::vector<std::string> cases{case_, std::string(CRACKLE_SOURCE_DIR) + "/cases/kgd/smoke.toml"};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto run_it = [&](const std::string& folder, const std::function<void()>& prepare) {
+      std::vector<std::string> words{"run", cases[i], "-j", "1", "-o", path(folder)};
+      if (i == 0) words.insert(words.end(), {"--set", "run.end_time=0.1 ms"});
+      return Process(words, path("process"), prepare).wait().code;
+    };
+    const std::string number = std::to_string(i);
+    ASSERT_EQ(run_it("open" + number, {}), 0);
+    EXPECT_EQ(run_it("full" + number, [] { dup2(open("/dev/full", O_WRONLY), STDERR_FILENO); }), 0);
+    EXPECT_EQ(run_it("closed" + number,
+                     [] {
+                       for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) close(stream);
+                     }),
+              0);
+    expect_same_results(path("full" + number), path("open" + number));
+    expect_same_results(path("closed" + number), path("open" + number));
+  }
+  const auto list = [&] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+  expect_refusal(Process({"list"}, path("process"), list).wait(), 2, "standard output: cannot write");
+  report_faults("terminal full or closed: runs by explicit steps and in field time", 4, Left::survived);
 }
 
 }  // namespace
