@@ -76,12 +76,11 @@ std::string why_no_contact(const FallOff& f, const Rise& rise) {
   return {};
 }
 
-/// Last point before the rise.
+/// Last point before -dp/dG is a tenth above its minimum, and beyond noise.
 std::size_t onset_of(const FallOff& f, const Rise& rise) {
   const double low = at_most(f, rise.low);
-  const double least = std::max(0.05 * std::abs(low), 0.01 * (f.by_g.value[rise.top] - low));
   std::size_t i = rise.top;
-  while (i > rise.low && f.by_g.value[i] > low + std::max(least, 3.0 * f.by_g.error[i])) --i;
+  while (i > rise.low && f.by_g.value[i] > low + std::max(0.1 * std::abs(low), 3.0 * f.by_g.error[i])) --i;
   return i;
 }
 
