@@ -294,7 +294,7 @@ std::string quasi_static_mesh_text(const Case& scene, const QuasiStaticScene& st
     return text + fmt::format(", half of the domain; a path of {} edges", stage.wings.front().path.size());
   text += fmt::format("; {} wings from {}{}", stage.wings.size(),
                       is_bored(scene) ? "the wall of the wellbore" : "the well",
-                      is_straight(scene) ? " along x" : ", free beyond the notch");
+                      is_straight(scene) ? " along x" : ", free");
   for (const Wing& wing : stage.wings)
     text += fmt::format("; {} edges, {} of them open", wing.path.size(), wing.open);
   if (!stage.joints.empty()) text += fmt::format("; {} edges of joints", stage.joints.size());

@@ -16,6 +16,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr int most_iterations = 30;
 constexpr double rock_tolerance = 1e-8;
 constexpr double fluid_tolerance = 1e-8;
+constexpr double bore_tolerance = 1e-10;  // where a step of the well alone is all there is to find
 constexpr double round_off = 1e-15;
 constexpr double pressure_unit = 1e6;  // [Pa]
 constexpr double rate_unit = 1e-4;     // [m2/s]
@@ -73,8 +74,9 @@ class System {
 
   bool converged() const {
     if (rock_residual_.lpNorm<1>() > rock_tolerance * rock_scale_) return false;
-    return fluid_ == 0 || fluid_error_ + fluid_residual_.head(first_inlet_).lpNorm<1>() <=
-                              fluid_tolerance * fluid_scale_ + fluid_noise_;
+    return fluid_ == 0 ||
+           fluid_error_ + fluid_residual_.head(first_inlet_).lpNorm<1>() <=
+               (e_.bore > 0.0 ? bore_tolerance : fluid_tolerance) * fluid_scale_ + fluid_noise_;
   }
 
   // Newton's step of jumps and fluid unknowns.
@@ -315,6 +317,7 @@ class System {
     double stored = well.storage * (s_.well_pressure - s_.well_before);
     if (e_.bore > 0.0) {
       stored += fluid_in_bore(e_, s_) - s_.bore;
+      fluid_noise_ += round_off * e_.bore;
       const double density = e_.scene.fluid.density(s_.well_pressure).value;
       for (Index k = 0; k < jumps_; ++k) by_jumps_(well_, k) += density * e_.rock.force(pressed, at(k));
     }
@@ -338,7 +341,8 @@ class System {
   Eigen::VectorXd rock_residual_, fluid_residual_;
   std::vector<Eigen::Triplet<double>> by_fluid_, fluid_entries_;
   double rock_scale_ = 0.0, fluid_scale_ = 0.0, fluid_error_ = 0.0;
-  double fluid_noise_ = 0.0;  // round-off of flow between cells at nearly the same pressure
+  double fluid_noise_ =
+      0.0;  // round-off of flow between cells at nearly the same pressure, of a full wellbore
 };
 
 }  // namespace

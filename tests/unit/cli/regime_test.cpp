@@ -68,6 +68,28 @@ TEST_F(Regime, QuasiStaticWhereInertiaIsPast) {
               HasSubstr("regime: quasi-static, as run.regime says"));
 }
 
+TEST_F(Regime, WellboreOrNotchToStartFrom) {
+  const std::vector<std::string> bored{"wellbore.diameter=4 m", "fracture.notch=0",
+                                       "run.regime=quasi_static"};
+  EXPECT_THAT(said(bored),
+              AllOf(HasSubstr("2 wings from the wall of the wellbore along x; "),
+                    HasSubstr("the wall of the wellbore breaks from 11.00 MPa (Hubbert-Willis)")));
+  std::vector<std::string> free = bored;
+  free.push_back("stress.xy=1 MPa");
+  EXPECT_THAT(said(free), HasSubstr("2 wings from the wall of the wellbore, free; 1 edges, 0 of them open"));
+  const std::string file = write("kgd.toml", kgd);
+  const auto refused = [&](const std::vector<std::string>& settings, const char* why) {
+    std::vector<std::string> arguments{"check", file};
+    for (const std::string& setting : settings) {
+      arguments.emplace_back("--set");
+      arguments.push_back(setting);
+    }
+    expect_refusal(crackle(arguments), 2, why);
+  };
+  refused({"wellbore.diameter=5 m", "run.regime=quasi_static"}, "it has to end outside of the wellbore");
+  refused({"run.regime=dynamic", "fluid.wets=tip"}, "fluid.wets = \"tip\" is of field time");
+}
+
 TEST_F(Regime, FlowByToughnessAndViscosity) {
   EXPECT_THAT(said({}), HasSubstr("flow: viscous (K_m = 7.17: toughness rules, pressure is uniform"));
   EXPECT_THAT(said({"fluid.viscosity=1e-3 Pa s"}),
