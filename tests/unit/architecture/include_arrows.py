@@ -31,6 +31,7 @@ LIBRARIES = [
     ("CGAL", r"CGAL/", "src/mesh"),
     ("gmsh", r"gmshc?\.h", "src/mesh"),
     ("VTK", r"vtk\w*\.h", "src/io"),
+    ("libdeflate", r"libdeflate\.h", "src/io"),
     ("pugixml", r"pugi\w+\.hpp", "src/io"),
     ("HDF5", r"(hdf5|H5\w*)\.h", "src/io"),
     ("toml++", r"toml(\+\+/|plusplus|\.hpp)", "src/io"),
