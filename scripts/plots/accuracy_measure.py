@@ -29,6 +29,10 @@ def measure(question, method, folder):
         return breakdown(run, method)
     if question == "plate":
         return plate(run)
+    if question == "bar":
+        return bar(run)
+    if question == "slot":
+        return slot(run)
     return crack(run)
 
 
@@ -39,6 +43,24 @@ def plate(run):
     spent = run.history["energy_fracture_J_m"][-1] / (ENERGY * (width - 2.0 * half))
     return [("peak_stress_Pa", stress, stress * rise * math.sqrt(math.pi * half) / TOUGHNESS - 1.0),
             ("dissipated_over_G", spent, spent - 1.0),
+            ("energy_residual", run.summary["energy_residual_max"], None)]
+
+
+def bar(run):
+    """What it took to break cases/accuracy_speed/bar.toml."""
+    spent = run.history["energy_fracture_J_m"][-1] / (50.0 * 25e-3)  # G [J/m2], width [m]
+    return [("dissipated_over_G", spent, spent - 1.0), ("energy_residual", run.summary["energy_residual_max"], None)]
+
+
+def slot(run):
+    """Pressure at which the notch of cases/accuracy_speed/slot.toml begins to grow: the largest until something breaks.
+    Reference: straight cohesive crack, linear softening, a = 4.29 l_ch, the fluid in its cohesive zone."""
+    h = run.history
+    broken = h["broken_tensile"] + h["broken_shear"] + h["broken_mixed"]
+    until = int(np.argmax(broken > 0)) + 1 if broken[-1] > 0 else len(broken)
+    value = h["pressure_Pa"][:until].max()
+    reference = 0.9552 * TOUGHNESS / math.sqrt(math.pi * 10e-3)
+    return [("growth_pressure_Pa", value, value / reference - 1.0),
             ("energy_residual", run.summary["energy_residual_max"], None)]
 
 

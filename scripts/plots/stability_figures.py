@@ -170,7 +170,21 @@ def motion(rows, folder):
     return save(figure, folder, "motion")
 
 
+def turned(rows, folder):
+    figure, axes = new("Mesh turned under a notch: strength in tension", width=6.4)
+    for setting in ("on_demand", "damage"):
+        p = Points(rows, "turned", setting)
+        axes[0].plot(p["x"], p["measured"], **style(setting))
+    axes[0].axhline(1.0, color=INK, lw=0.9, ls="--")
+    axes[0].set_ylim(0.8, 1.3)
+    axes[0].set_xticks(range(0, 91, 15))
+    name_axes(axes[0], "a lattice of right triangles, 10 in the notch's half-length", "notch from the lattice [degrees]",
+              "largest stress / straight cohesive crack")
+    axes[0].legend(loc="lower left")
+    return save(figure, folder, "turned")
+
+
 def draw(table, folder):
     """Draws all figures. Returns their paths."""
     rows = read(table)
-    return [figure(rows, folder) for figure in (time_step, limits, contact, fluid, motion)]
+    return [figure(rows, folder) for figure in (time_step, limits, contact, fluid, motion, turned)]

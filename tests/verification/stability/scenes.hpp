@@ -75,6 +75,10 @@ Row precision(const std::string& setting, double x);
 /// [Pa].
 Row drawing(const std::string& setting, double x);
 
+/// A lattice of triangles, pulled in all directions, with a notch turned in it (x [degrees]): what the
+/// direction of a mesh does to strength. measured: largest stress over that of the straight cohesive crack.
+Row turned(const std::string& setting, double x);
+
 /// Any of them by name. @throws std::invalid_argument
 Row run(const std::string& scene, const std::string& setting, double x, double y);
 

@@ -127,6 +127,7 @@ Row run(const std::string& scene, const std::string& setting, double x, double y
   if (scene == "rotation") return rotation(setting, x);
   if (scene == "precision") return precision(setting, x);
   if (scene == "drawing") return drawing(setting, x);
+  if (scene == "turned") return turned(setting, x);
   throw std::invalid_argument("no such scene: " + scene);
 }
 
