@@ -44,18 +44,20 @@ TEST_F(Kill, WithSmearedDamage) {
 
 // Three layers with bedding along them, a slit under pressure, elements on demand.
 TEST_F(Kill, LayeredAndBedded) {
-  kill_and_resume("layered and bedded",
-                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/layered_block/smoke.toml", "--set",
-                   "rock.tensile_strength_bedding=3 MPa", "--set", "rock.cohesion_bedding=15 MPa", "--set",
-                   "output.fields_every=20 us", "--set", "output.checkpoint_every=2 ms"},
-                  6);
+  kill_and_resume(
+      "layered and bedded",
+      {std::string(CRACKLE_SOURCE_DIR) + "/cases/layered_block/smoke.toml", "--set",
+       "rock.tensile_strength_bedding=3 MPa", "--set", "rock.cohesion_bedding=15 MPa", "--set",
+       "run.end_time=0.2 ms", "--set", "output.fields_every=50 us", "--set", "output.checkpoint_every=5 ms"},
+      4);
 }
 
 TEST_F(Kill, DamageInLayers) {
-  kill_and_resume("smeared damage in layers",
-                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/layered_block/smoke_damage.toml", "--set",
-                   "output.fields_every=20 us", "--set", "output.checkpoint_every=2 ms"},
-                  6);
+  kill_and_resume(
+      "smeared damage in layers",
+      {std::string(CRACKLE_SOURCE_DIR) + "/cases/layered_block/smoke_damage.toml", "--set",
+       "run.end_time=0.2 ms", "--set", "output.fields_every=50 us", "--set", "output.checkpoint_every=5 ms"},
+      4);
 }
 
 TEST_F(Kill, InFieldTime) {

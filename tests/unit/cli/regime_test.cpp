@@ -48,7 +48,7 @@ end_time = "100 s"
 class Regime : public CliTest {
  protected:
   /// What check says of the fracture with settings.
-  std::string said(std::vector<std::string> settings) const {
+  std::string said(const std::vector<std::string>& settings) const {
     std::vector<std::string> arguments{"check", write("kgd.toml", kgd)};
     for (const std::string& setting : settings) {
       arguments.push_back("--set");
