@@ -122,7 +122,7 @@ struct Tangent {
   const FallRate& rate;
 };
 
-/// Last point near the tangent from the origin to x dp/dx.
+/// Where x dp/dx leaves the tangent from the origin.
 Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
   constexpr double off = 0.2, deviations = 4.0;
   const std::vector<double>&slope = t.rate.value, &error = t.rate.error;
@@ -147,12 +147,14 @@ Pick pick_tangent(const FallOff& f, const Pick& contact, const Tangent& t) {
   // without a rise the tangent must be seen as a line, or any decline would have one
   if (!contact.found() && t.x[last] < 1.5 * t.x[straight])
     return none(t.name, "Pa", t.of + " has no straight part through the origin");
+  const double part = (slope[last] - (1.0 - off) * largest) / (slope[last] - slope[last + 1]);
+  const auto there = [&](const std::vector<double>& of) { return std::lerp(of[last], of[last + 1], part); };
   Pick pick{.name = t.name, .unit = "Pa"};
-  pick.value = f.pressure[last];
-  pick.time = f.shut_in + f.elapsed[last];
-  pick.uncertainty = std::hypot(f.point_error(last), 0.5 * (f.pressure[top] - f.pressure[last]));
-  pick.method = fmt::format("last point within a fifth of the tangent from the origin to {}, at {:.4g}; {}",
-                            t.of, t.x[last], window_text(f));
+  pick.value = there(f.pressure);
+  pick.time = f.shut_in + there(f.elapsed);
+  pick.uncertainty = std::hypot(f.point_error(last), 0.5 * (f.pressure[top] - *pick.value));
+  pick.method = fmt::format("where {} has left the tangent from the origin by a fifth, at {:.4g}; {}", t.of,
+                            there(t.x), window_text(f));
   return pick;
 }
 

@@ -173,7 +173,7 @@ GridLines grid_lines(const Case& scene) {
   const Case::Mesh& m = scene.mesh;
   const double path = m.size_fine * std::round(m.fine_radius / m.size_fine);
   return {{path, 0.5 * scene.domain.width, {m.size_fine, 1.2, m.size_coarse}},
-          {6.0 * m.size_fine, 0.5 * scene.domain.height, {m.size_fine, 1.15, m.size_coarse}}};
+          {6.0 * m.size_fine, 0.5 * scene.domain.height, {m.size_fine, 1.1, m.size_coarse}}};
 }
 
 // On the whole domain, held at its rim: wings that choose their way, and joints.
@@ -206,7 +206,8 @@ double estimate_grid_triangles(const Case& scene) {
                                        ? growing + (rest - grown) / largest
                                        : std::log1p(rest * (ratio - 1.0) / (step * ratio)) / std::log(ratio));
   };
-  return 4.0 * steps(lines.x) * steps(lines.y);
+  const double crossed = lines.y.fine_end / lines.y.grading.step;  // rows of twice as many
+  return 4.0 * steps(lines.x) * (steps(lines.y) + crossed);
 }
 
 Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network) {
@@ -222,7 +223,7 @@ Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network) {
   }
   const GridLines lines = grid_lines(scene);
   const auto line = [](const GridLine& l) { return graded_line(0.0, l.fine_end, l.to, l.grading); };
-  return grid_rectangle(line(lines.x), mirrored(line(lines.y)));
+  return grid_rectangle(line(lines.x), mirrored(line(lines.y)), lines.y.fine_end);
 }
 
 // Viscosity [Pa s] of K_m = 48, ten times that from which pressure is uniform.

@@ -30,7 +30,7 @@ std::vector<double> graded_line(double from, double fine_end, double to, const G
   return line;
 }
 
-Mesh grid_rectangle(std::span<const double> x, std::span<const double> y) {
+Mesh grid_rectangle(std::span<const double> x, std::span<const double> y, double crossed) {
   const auto increasing = [](std::span<const double> a) {
     return a.size() > 1 && std::adjacent_find(a.begin(), a.end(), std::greater_equal<>()) == a.end();
   };
@@ -43,7 +43,13 @@ Mesh grid_rectangle(std::span<const double> x, std::span<const double> y) {
   for (Index j = 0; j + 1 < static_cast<Index>(y.size()); ++j) {
     for (Index i = 0; i + 1 < nx; ++i) {
       const Index a = j * nx + i, b = a + 1, d = a + nx, c = d + 1;
-      if ((i + j) % 2 == 0) {
+      const Vec2 low = mesh.vertices[static_cast<std::size_t>(a)],
+                 high = mesh.vertices[static_cast<std::size_t>(c)];
+      if (std::max(std::abs(low.y), std::abs(high.y)) < crossed * (1.0 + 1e-9)) {
+        const Index m = mesh.vertex_count();
+        mesh.vertices.push_back(0.5 * (low + high));
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, m}, {b, c, m}, {c, d, m}, {d, a, m}});
+      } else if ((i + j) % 2 == 0) {
         mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
       } else {
         mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {b, c, d}});

@@ -21,8 +21,10 @@ struct Grading {
 std::vector<double> graded_line(double from, double fine_end, double to, const Grading& grading);
 
 /// A rectangle between lines at the given coordinates [m], increasing, each cell cut into two triangles
-/// along alternating diagonals: for a fracture whose straight path is known. @throws MeshError
-Mesh grid_rectangle(std::span<const double> x, std::span<const double> y);
+/// along alternating diagonals: for a fracture whose straight path is known.
+/// @param crossed cells that lie in |y| <= crossed [m] are cut by both diagonals, into four: linear triangles
+/// of such cells are less stiff at the tip, and so at every vertex alike. @throws MeshError
+Mesh grid_rectangle(std::span<const double> x, std::span<const double> y, double crossed = 0.0);
 
 /// Interior edges of the mesh that lie on the segment from `from` to `to` [m], in order, each meeting
 /// the next. @throws MeshError when they do not make up the whole segment

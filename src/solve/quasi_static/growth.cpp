@@ -118,7 +118,9 @@ NextEdge choose_edge(const Equations& e, const State& state, const Tip& tip) {
 void take_over(const Equations& e, State& state, std::size_t first) {
   const auto count = static_cast<Index>(state.jumps.size() - first);
   if (count == 0) return;
-  const auto joined = [&](Index unknown) { return at(unknown) >= first ? unknown - static_cast<Index>(first) : -1; };
+  const auto joined = [&](Index unknown) {
+    return at(unknown) >= first ? unknown - static_cast<Index>(first) : -1;
+  };
   // Forces that hold the new jumps shut, less what older points bear of them.
   Eigen::VectorXd force = Eigen::VectorXd::Zero(count);
   Eigen::MatrixXd share = Eigen::MatrixXd::Zero(count, count);
@@ -130,21 +132,25 @@ void take_over(const Equations& e, State& state, std::size_t first) {
   for (std::size_t c = 0; c < state.cells.size(); ++c) {
     const PathEdge& edge = e.path.edges()[c];
     for (std::size_t i = 0; i < 2; ++i) {
-      const bool touched = std::ranges::any_of(edge.jump[i], [&](const JumpTerm& t) { return joined(t.unknown) >= 0; });
-      const bool fresh = std::ranges::all_of(edge.jump[i], [&](const JumpTerm& t) { return joined(t.unknown) >= 0; });
+      const bool touched =
+          std::ranges::any_of(edge.jump[i], [&](const JumpTerm& t) { return joined(t.unknown) >= 0; });
+      const bool fresh =
+          std::ranges::all_of(edge.jump[i], [&](const JumpTerm& t) { return joined(t.unknown) >= 0; });
       if (!touched) continue;
       const double half = 0.5 * edge.length;
       if (fresh && state.cells[c].parent != of_joint) {
         points.emplace_back(c, i);
         for (const JumpTerm& a : edge.jump[i]) {
           for (const JumpTerm& b : edge.jump[i])
-            share(joined(a.unknown), joined(b.unknown)) += half * (a.normal * b.normal + a.tangent * b.tangent);
+            share(joined(a.unknown), joined(b.unknown)) +=
+                half * (a.normal * b.normal + a.tangent * b.tangent);
         }
         continue;
       }
       const Point& p = state.cells[c].points[i];
       const MixedTraction t = traction_at(e, state, c, i);
-      const double load = pressure_over_pores(e, state, c) - t.normal + p.in_situ, drag = p.in_situ_shear - t.shear;
+      const double load = pressure_over_pores(e, state, c) - t.normal + p.in_situ,
+                   drag = p.in_situ_shear - t.shear;
       for (const JumpTerm& a : edge.jump[i]) {
         if (joined(a.unknown) >= 0) force[joined(a.unknown)] -= half * (load * a.normal + drag * a.tangent);
       }

@@ -19,9 +19,9 @@ struct NextEdge {
 /// The rock has to have followed the path. @throws NumericalError at the boundary of the domain
 NextEdge choose_edge(const Equations& equations, const State& state, const Tip& tip);
 
-/// Lets the points whose jumps have joined the path, from number `first` on, bear what holds the rock together
-/// there now, at the pressure that has come to act on them: nothing moves. Beyond their strength they bear that.
-/// The rock has to have followed the path.
+/// Lets the points whose jumps have joined the path, from number `first` on, bear what holds the rock
+/// together there now, at the pressure that has come to act on them: nothing moves. Beyond their strength
+/// they bear that. The rock has to have followed the path.
 void take_over(const Equations& equations, State& state, std::size_t first);
 
 }  // namespace crackle::quasi_static

@@ -43,8 +43,8 @@ struct Along {
 Along along(const Equations& e, std::size_t c, std::size_t i, const Point& point,
             const std::vector<double>& jumps) {
   const double opening = openings(e.path.edges()[c], jumps)[i], slip = slips(e.path.edges()[c], jumps)[i];
-  const MixedTraction t = e.laws[c].traction(opening, slip, point.max_opening, point.plastic_slip,
-                                             point.bond, point.bond_shear);
+  const MixedTraction t =
+      e.laws[c].traction(opening, slip, point.max_opening, point.plastic_slip, point.bond, point.bond_shear);
   return {slip, point.plastic_slip, t.friction,
           e.laws[c].shear_stiffness(std::max(opening, point.max_opening))};
 }
@@ -111,9 +111,9 @@ Energies kept(const Equations& e, const State& state) {
 }
 
 // What the work of the pump becomes.
-constexpr std::array parts{&Energies::well,     &Energies::entry,       &Energies::viscous, &Energies::leaked,
-                           &Energies::fluid,    &Energies::strain,      &Energies::confinement,
-                           &Energies::faces,    &Energies::fracture,    &Energies::friction};
+constexpr std::array parts{&Energies::well,     &Energies::entry,   &Energies::viscous,     &Energies::leaked,
+                           &Energies::fluid,    &Energies::strain,  &Energies::confinement, &Energies::faces,
+                           &Energies::fracture, &Energies::friction};
 
 double left(const Energies& sum) {
   double rest = sum.pumped;
@@ -164,8 +164,8 @@ void account(const Equations& e, const State& before, State& after, double dt, d
 
 double error_of_step(const Energies& before, const Energies& after) {
   double turned = std::max({1e-3 * after.pumped, 1e-3 * after.well, 1e-30});
-  for (const auto part : {&Energies::pumped, &Energies::well, &Energies::leaked, &Energies::strain,
-                          &Energies::fracture})
+  for (const auto part :
+       {&Energies::pumped, &Energies::well, &Energies::leaked, &Energies::strain, &Energies::fracture})
     turned = std::max(turned, std::abs(after.*part - before.*part));
   return std::abs(left(after) - left(before)) / turned;
 }

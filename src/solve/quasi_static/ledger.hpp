@@ -22,8 +22,8 @@ void begin_ledger(const Equations& equations, State& state);
 /// Books a step of length dt [s] with a mean pump rate [m2/s] between two states.
 void account(const Equations& equations, const State& before, State& after, double dt, double rate);
 
-/// What does not add up in a step [-], over the largest of what is pumped, kept by the well or by the rock, taken
-/// by fracture or by what leaks off in it, or over a thousandth of all that was pumped.
+/// What does not add up in a step [-], over the largest of what is pumped, kept by the well or by the rock,
+/// taken by fracture or by what leaks off in it, or over a thousandth of all that was pumped.
 double error_of_step(const Energies& before, const Energies& after);
 
 }  // namespace crackle::quasi_static

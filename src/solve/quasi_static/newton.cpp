@@ -225,7 +225,8 @@ class System {
       const ValueSlope density = e_.scene.fluid.density(p);
       const ValueSlope lost = source == index ? leak(e_, s_, index, p, dt_) : ValueSlope{};
       fluid_residual_[row] += h * w * density.value - cell.mass + lost.value;
-      fluid_scale_ += std::abs(h * w * density.value - cell.mass) + std::abs(lost.value) + 1e-6 * std::abs(cell.mass);
+      fluid_scale_ +=
+          std::abs(h * w * density.value - cell.mass) + std::abs(lost.value) + 1e-6 * std::abs(cell.mass);
       by_aperture(row, index, h * density.value);
       by_pressure(row, source, h * w * density.slope + lost.slope);
     }

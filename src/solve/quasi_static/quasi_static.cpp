@@ -100,7 +100,8 @@ class QuasiStatic::Solver {
         error = qs::error_of_step(state_.energies, trial.energies) / scene_.control.energy;
       }
       // What is left after a few cuts is not the step's.
-      const double suits = 0.9 / std::sqrt(std::max(error, 1e-9));  // the error of a step goes with its square
+      const double suits =
+          0.9 / std::sqrt(std::max(error, 1e-9));  // the error of a step goes with its square
       const bool cut = error > 1.0 && 0.1 * dt > scene_.control.smallest && too_long++ < most_cuts;
       shorter = cut ? std::clamp(suits, 0.1, 0.5) : 0.5;
       if (iterations < 0 || cut) {
@@ -348,9 +349,8 @@ class QuasiStatic::Solver {
                slip = qs::slips(path_.edges()[c], state.jumps);
     for (std::size_t i = 0; i < 2; ++i) {
       qs::Point& p = state.cells[c].points[i];
-      p.plastic_slip = laws_[c]
-                           .traction(w[i], slip[i], p.max_opening, p.plastic_slip, p.bond, p.bond_shear)
-                           .plastic_slip;
+      p.plastic_slip =
+          laws_[c].traction(w[i], slip[i], p.max_opening, p.plastic_slip, p.bond, p.bond_shear).plastic_slip;
     }
   }
 

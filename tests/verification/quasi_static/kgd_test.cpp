@@ -169,21 +169,17 @@ TEST(Kgd, ViscosityVertex) {
 
 /// Leak-off rules and viscosity: ℓ = V_leak/(π C' √t), C' = 2 C_L; with ε = (12 μ Q/(E' ℓ²))^¼ opening and
 /// pressure at the well are 1.44700 ε ℓ and 0.42397 ε E' (validation D7, own solution).
-struct LeakOffVertex : Found {
-  double efficiency = 0.0;
-};
-
-LeakOffVertex leak_off_vertex(double relative) {
+TEST(Kgd, LeakOffAndViscosity) {
   constexpr double coefficient = 5.9e-5, viscosity = 1e-3;
   QuasiStaticScene s = kgd(0.25, 12.0, 1e4, viscosity, 9.44e6);
   s.leak_off = CarterLeakOff{coefficient, s.pore_pressure, 2e6};
-  s.control.relative = relative;
   QuasiStatic stage(s);
-  LeakOffVertex found;
+  Found found;
+  double efficiency = 0.0;
   stage.run(1400.0, [&](const QuasiStaticRow& row) {
     found.defect = std::max(found.defect, std::abs(row.mass_defect) / row.injected);
     found.residual = std::max(found.residual, row.energies.residual);
-    found.efficiency = row.fracture_volume / row.injected;
+    efficiency = row.fracture_volume / row.injected;
     if (row.time < 700.0) return;
     const double l = 2.0 * row.leaked / (M_PI * 2.0 * coefficient * std::sqrt(row.time));
     const double e = std::pow(12.0 * viscosity * rate / (modulus * l * l), 0.25);
@@ -192,30 +188,19 @@ LeakOffVertex leak_off_vertex(double relative) {
     found.opening.add(weight, row.opening, 1.447 * e * l);
     found.length.add(weight, row.elastic_length, l);
   });
-  std::printf("leak-off and viscosity, steps of %.1f %%: p %+.2f, w %+.2f, length %+.2f %%; rms %.2f, %.2f %%\n",
-              100.0 * relative, found.pressure.mean(), found.opening.mean(), found.length.mean(),
-              found.pressure.rms(), found.opening.rms());
-  return found;
-}
-
-// A tip that goes on by whole edges takes in a step of 2 % what it leaks in several; by chance of where the steps
-// fall such runs scatter by 1 %.
-TEST(Kgd, LeakOffAndViscosity) {
-  const LeakOffVertex coarse = leak_off_vertex(0.02), found = leak_off_vertex(0.005);
-  accept(24, "leak-off and viscosity rule (M-tilde vertex), h = 0.25 m, steps of 0.5 %: p, w, length; efficiency",
+  std::printf("leak-off and viscosity: efficiency %.3f at the end, mass %.0e; rms %.2f, %.2f %%\n",
+              efficiency, found.defect, found.pressure.rms(), found.opening.rms());
+  accept(24, "leak-off and viscosity rule (M-tilde vertex), h = 0.25 m: p, w, length; efficiency",
          "3, 3, 8 %; printed",
          text("%+.2f, %+.2f, %+.2f %%; %.3f", found.pressure.mean(), found.opening.mean(),
-              found.length.mean(), found.efficiency),
+              found.length.mean(), efficiency),
          std::abs(found.pressure.mean()) <= 3.0 && std::abs(found.opening.mean()) <= 3.0 &&
              std::abs(found.length.mean()) <= 8.0);
-  accept(24, "the same, steps of 2 %: p, w, length", "printed",
-         text("%+.2f, %+.2f, %+.2f %%", coarse.pressure.mean(), coarse.opening.mean(), coarse.length.mean()), true);
   EXPECT_LT(found.pressure.rms(), 3.0);
   EXPECT_LT(found.opening.rms(), 3.5);
   EXPECT_LT(std::abs(found.length.mean()), 3.0);
-  EXPECT_LT(coarse.opening.rms(), 5.0);
-  EXPECT_LT(std::max(found.defect, coarse.defect), 1e-8);
-  EXPECT_LT(std::max(found.residual, coarse.residual), 1e-3);
+  EXPECT_LT(found.defect, 1e-8);
+  EXPECT_LT(found.residual, 1e-3);
 }
 
 /// Toughness to leak-off: a(t) of Q t = 2 √π K a^{3/2}/E' + 8 C_L ∫₀ᵃ √(t − t₀(x)) dx (two wings, two
@@ -316,14 +301,14 @@ TEST(Kgd, CarterLeakOff) {
 QuasiStaticScene both_wings(double step, double path, double toughness) {
   QuasiStaticScene s = kgd(step, path, toughness, 1e-6, 9.44e6);
   const std::vector<double> half = graded_line(0.0, path, 20.0 * path, {step, 1.2});
-  const std::vector<double> up = graded_line(0.0, 6.0 * step, 20.0 * path, {step, 1.15});
+  const std::vector<double> up = graded_line(0.0, 6.0 * step, 20.0 * path, {step, 1.1});
   const auto mirrored = [](const std::vector<double>& line) {
     std::vector<double> both;
     for (std::size_t i = line.size(); i-- > 1;) both.push_back(-line[i]);
     both.insert(both.end(), line.begin(), line.end());
     return both;
   };
-  auto mesh = std::make_shared<const Mesh>(grid_rectangle(mirrored(half), mirrored(up)));
+  auto mesh = std::make_shared<const Mesh>(grid_rectangle(mirrored(half), mirrored(up), 6.0 * step));
   s.held.assign(mesh->vertices.size(), 0);
   Index start = -1;
   for (std::size_t v = 0; v < s.held.size(); ++v) {

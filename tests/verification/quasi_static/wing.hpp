@@ -15,11 +15,11 @@ namespace crackle::wing {
 
 inline std::shared_ptr<const Mesh> mesh(double step, double path, double radius) {
   const std::vector<double> x = graded_line(0.0, path, radius, {step, 1.2});
-  std::vector<double> y = graded_line(0.0, 6.0 * step, radius, {step, 1.15});
+  std::vector<double> y = graded_line(0.0, 6.0 * step, radius, {step, 1.1});
   std::vector<double> both;
   for (std::size_t i = y.size(); i-- > 1;) both.push_back(-y[i]);
   both.insert(both.end(), y.begin(), y.end());
-  return std::make_shared<const Mesh>(grid_rectangle(x, both));
+  return std::make_shared<const Mesh>(grid_rectangle(x, both, 6.0 * step));
 }
 
 /// Symmetry at x = 0, free elsewhere, and held in y at the far end of y = 0.
