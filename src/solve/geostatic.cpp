@@ -215,7 +215,26 @@ void Simulation::bear_geostatic_loads(std::vector<Vec2> forces) {
   boundary_.emplace(state_, rock, forces);
 }
 
+// Masses with which no node is faster or slower than the step: waves, which are what has to die away, cross a
+// large triangle in as many steps as a small one.
+void Simulation::grade_masses() {
+  for (Index n = 0; n < state_.node_count(); ++n) {
+    double& inverse = state_.inverse_mass[at(n)];
+    if (inverse > 0.0 && state_.node_size[at(n)] > 0)
+      inverse = 1.0 / mass_of_step(state_, bulk_, cohesive(), n, stable_.limit);
+  }
+}
+
 void Simulation::relax() {
+  // Only where no node will part, whose parts would have to be graded anew.
+  const std::vector<double> inverse_mass = state_.inverse_mass;
+  const bool graded = cohesive_ && !scene_.insertion.on_demand;
+  if (graded) grade_masses();
+  come_to_rest();
+  if (graded) state_.inverse_mass = inverse_mass;
+}
+
+void Simulation::come_to_rest() {
   // Kinetic damping: whenever the kinetic energy has passed a peak, everything stops and starts again.
   // Well below the stable step: near it, stopping at every peak can lock into a short cycle.
   const double dt = 0.3 * stable_.limit;
@@ -234,6 +253,8 @@ void Simulation::relax() {
     if (i <= rise && pressed) fluid_->hold(scene_.initial_pressure * i / rise);
     state_.time = -2.0 * dt;  // before the pump starts
     advance(dt, nullptr);
+    if (cohesive_) geostatic_slips_ += static_cast<Index>(cohesive_->newly_broken().size());
+    if (damage_) geostatic_slips_ += static_cast<Index>(damage_->newly_failed().size());
     double kinetic = 0.0;
     for (std::size_t n = 0; n < state_.velocity.size(); ++n) {
       if (state_.inverse_mass[n] > 0.0)

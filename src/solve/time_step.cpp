@@ -12,25 +12,41 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-}  // namespace
-
-double node_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node) {
-  const Mesh& mesh = *state.mesh;
+// Gershgorin's rows of a node [N/m2, N s/m2], and its mass [kg/m].
+struct NodeRows {
   double stiffness = 0.0, viscosity = 0.0, mass = 0.0;
+};
+
+NodeRows rows_of(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node) {
+  const Mesh& mesh = *state.mesh;
+  NodeRows r;
   for (Index k = 0; k < state.node_size[at(node)]; ++k) {
     const Index corner = state.node_corners[at(state.node_first[at(node)] + k)];
-    stiffness += bulk.stiffness_rows(corner / 3)[at(corner % 3)];
-    if (bulk.viscous()) viscosity += bulk.viscosity_rows(corner / 3)[at(corner % 3)];
-    mass += bulk.density(corner / 3) * bulk.area(corner / 3) / 3.0;
+    r.stiffness += bulk.stiffness_rows(corner / 3)[at(corner % 3)];
+    if (bulk.viscous()) r.viscosity += bulk.viscosity_rows(corner / 3)[at(corner % 3)];
+    r.mass += bulk.density(corner / 3) * bulk.area(corner / 3) / 3.0;
     if (cohesive == nullptr) continue;
     for (const Index side : {corner % 3, (corner + 2) % 3}) {
       const Index element = state.cohesive.of_edge[at(mesh.triangle_edges[at(corner / 3)][at(side)])];
       if (element < 0) continue;
       const CohesiveMaterial material = cohesive->material(state, element);
-      stiffness += std::max(material.penalty, material.tangential_penalty);
+      r.stiffness += std::max(material.penalty, material.tangential_penalty);
     }
   }
-  return 2.0 * (std::sqrt(0.25 * viscosity * viscosity + mass * stiffness) - 0.5 * viscosity) / stiffness;
+  return r;
+}
+
+}  // namespace
+
+double node_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node) {
+  const NodeRows r = rows_of(state, bulk, cohesive, node);
+  return 2.0 * (std::sqrt(0.25 * r.viscosity * r.viscosity + r.mass * r.stiffness) - 0.5 * r.viscosity) /
+         r.stiffness;
+}
+
+double mass_of_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node, double step) {
+  const NodeRows r = rows_of(state, bulk, cohesive, node);
+  return 0.25 * step * step * r.stiffness + 0.5 * step * r.viscosity;
 }
 
 double penalty_below(const State& state, const Bulk& bulk, Index e, double step) {

@@ -220,6 +220,8 @@ class Simulation {
   void bear_geostatic_loads(std::vector<Vec2> forces);
   Energies with_residual(Energies e);
   void relax();
+  void grade_masses();
+  void come_to_rest();
   void advance(double dt, Energies* account);
   void move_nodes(double dt);
   void heed_activated();

@@ -33,6 +33,9 @@ struct StableStep {
 /// Stable step of one node [s], by its row.
 double node_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node);
 
+/// Mass [kg/m] with which the stable step of a node, by its row, is a given one [s].
+double mass_of_step(const State& state, const Bulk& bulk, const Cohesive* cohesive, Index node, double step);
+
 /// Largest penalty [Pa] with which an element may be inserted on an edge so that a corner that it cuts
 /// loose, with another such element on its other side, allows a step [s]; may be negative.
 double penalty_below(const State& state, const Bulk& bulk, Index edge, double step);
