@@ -163,11 +163,12 @@ void account(const Equations& e, const State& before, State& after, double dt, d
 }
 
 double error_of_step(const Energies& before, const Energies& after) {
-  double turned = std::max({1e-3 * after.pumped, 1e-3 * after.well, 1e-30});
+  double turned = std::max(after.pumped, after.well) * 1e-3;
+  const double least = turned;
   for (const auto part :
        {&Energies::pumped, &Energies::well, &Energies::leaked, &Energies::strain, &Energies::fracture})
     turned = std::max(turned, std::abs(after.*part - before.*part));
-  return std::abs(left(after) - left(before)) / turned;
+  return turned > least ? std::abs(left(after) - left(before)) / turned : 0.0;
 }
 
 }  // namespace crackle::quasi_static

@@ -110,7 +110,7 @@ class QuasiStatic::Solver {
         ++state_.rejected;
         continue;
       }
-      trial.step = dt * std::clamp(suits, 0.5, scene_.control.growth);
+      trial.step = std::max(dt * std::clamp(suits, 0.5, scene_.control.growth), scene_.control.smallest);
       return commit(std::move(trial), until, dt, rate, iterations);
     }
   }
