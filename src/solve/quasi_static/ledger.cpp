@@ -163,7 +163,7 @@ void account(const Equations& e, const State& before, State& after, double dt, d
 }
 
 double error_of_step(const Energies& before, const Energies& after) {
-  double turned = std::max(after.pumped, after.well) * 1e-3;
+  double turned = std::max({1e-3 * after.pumped, 1e-3 * after.well, 1e-10});
   const double least = turned;
   for (const auto part :
        {&Energies::pumped, &Energies::well, &Energies::leaked, &Energies::strain, &Energies::fracture})

@@ -23,7 +23,8 @@ void begin_ledger(const Equations& equations, State& state);
 void account(const Equations& equations, const State& before, State& after, double dt, double rate);
 
 /// What does not add up in a step [-], over the largest of what is pumped, kept by the well or by the rock,
-/// taken by fracture or by what leaks off in it; 0 where that is less than a thousandth of all that was pumped.
+/// taken by fracture or by what leaks off in it; 0 where that is less than a thousandth of all that was
+/// pumped, or next to nothing.
 double error_of_step(const Energies& before, const Energies& after);
 
 }  // namespace crackle::quasi_static
