@@ -28,7 +28,7 @@ constexpr double history_row = 270.0, history_row_field_time = 450.0;
 constexpr double frame_heads = 7e3, other_files = 6e3;  // of fields and fractures; log, case, summary
 // A run in field time takes some hundred steps a stage of its pump.
 constexpr double rows_field_time = 600.0;
-constexpr double checkpoint_triangle = 510.0, checkpoint_triangle_field_time = 100.0;
+constexpr double checkpoint_triangle = 510.0;
 constexpr double frame_seconds = 4.6e-6;  // a triangle, most of it zlib
 
 // Where nothing is timed. The geostatic solve grows faster than the mesh (fill of the factor).
@@ -99,7 +99,7 @@ void require_disk(const Case& scene, double triangles, const RunOutput& output, 
   const auto space = std::filesystem::space(folder, unknown);
   if (unknown) return;
   // Two checkpoints and a third that is being written.
-  const double a_triangle = in_field_time(scene) ? checkpoint_triangle_field_time : checkpoint_triangle;
+  const double a_triangle = in_field_time(scene) ? 100.0 : checkpoint_triangle;  // there the mesh for the most
   const double needed = output.bytes + 3.0 * a_triangle * triangles;
   const double available = static_cast<double>(space.available);
   if (needed <= available) return;
