@@ -240,6 +240,7 @@ void return_large_arrays() { mallopt(M_MMAP_THRESHOLD, 1 << 20); }
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  setenv("VTK_SMP_MAX_THREADS", "1", 0);  // else VTK starts threads of its own, one a core, whatever -j says
   shorten_spinning(argv);
   return_large_arrays();
   try {

@@ -23,7 +23,7 @@ double bytes_of(const std::string& number, const std::string& unit) {
 // What the log says before the first step.
 Said said_in(const std::string& log) {
   const std::regex line(
-      "; ([0-9.]+) (.B) of memory(, ([0-9.]+) (.B) while a checkpoint is written)?; ([0-9.]+) (.B) of "
+      "[;Z] ([0-9.]+) (.B) of memory(, ([0-9.]+) (.B) while a checkpoint is written)?; ([0-9.]+) (.B) of "
       "output");
   std::smatch found;
   if (!std::regex_search(log, found, line)) {
@@ -75,6 +75,18 @@ std::vector<Needs> memory_scenes(const std::string& size) {
     add("all", "1 ms");
     add("on_demand", "0 s");
     add("on_demand", "1 ms");
+  }
+  return scenes;
+}
+
+std::vector<Needs> field_time_scenes() {
+  std::vector<Needs> scenes;
+  for (const std::string path : {"kgd/kgd", "free_paths/free_paths"}) {
+    for (const std::string checkpoint : {"0 s", "1 ms"}) {
+      scenes.push_back({path + (checkpoint == "0 s" ? "" : ", checkpoints"),
+                        path + ".toml",
+                        {"run.end_time=2 s", "output.checkpoint_every=" + checkpoint}});
+    }
   }
   return scenes;
 }

@@ -15,6 +15,8 @@ struct Needs {
 /// Scenes of that size of edge round the wellbore, started only: elements on all edges, with checkpoints and
 /// without, and on demand, each with joints and without.
 std::vector<Needs> memory_scenes(const std::string& size);
+/// The same in field time: a straight fracture and free paths.
+std::vector<Needs> field_time_scenes();
 /// Runs through fracture, whose frames are as those of a run that somebody wants.
 std::vector<Needs> output_scenes(const std::string& size);
 

@@ -18,6 +18,12 @@ TEST_F(Resources, OutputIsAsSaid) {
   for (const Needs& needs : output_scenes("12 mm")) expect_output_as_said(needs, path("run"));
 }
 
+TEST_F(Resources, InFieldTime) {
+  for (const Needs& needs : field_time_scenes()) expect_memory_as_said(needs, path("run"));
+  expect_output_as_said({"straight", "kgd/smoke.toml", {"run.end_time=30 s"}}, path("run"));
+  expect_output_as_said({"free paths", "free_paths/smoke.toml", {"output.fields_every=0.2 s"}}, path("run"));
+}
+
 TEST_F(Resources, ARunThatWouldWriteMoreThanIsAllowedIsRefused) {
   write("case.toml", good_case);
   const Outcome outcome =
