@@ -135,7 +135,7 @@ struct ElasticTraction {
   bool beyond = false;
 };
 
-/// The elastic branch, shared by the fast loop over intact elements and by move().
+/// The elastic branch at a point; elastic_element.hpp has it of whole elements, some at a time.
 inline ElasticTraction elastic_traction(double stiffness, double curvature, double tensile_strength,
                                         double cohesion, double tan_friction, double opening, double slip) {
   const double t = stiffness * opening;

@@ -114,7 +114,10 @@ class Bulk {
 
  private:
   std::array<double, 3> rows(Index triangle, const PlaneStiffness& c) const;
-  TriangleRun run_of(State& state, Index begin, Index end) const;
+  /// Calls work(from, to) for every run of one material.
+  template <class Work>
+  void for_each_material(Index begin, Index end, const Work& work) const;
+  TriangleRun run_of(const State& state, Index begin, Index end) const;
   void add_weight(Index begin, Index end, Vec2* forces) const;
 
   std::vector<BulkMaterial> materials_;
