@@ -155,8 +155,8 @@ def draw_map(rows, path):
 
 def draw_fractures(runs, path):
     columns = [(angle, difference) for angle, difference in ((30, 4), (60, 4), (90, 2), (90, 7))]
-    methods = ["demand", "damage"]
-    figure, grid = plt.subplots(len(methods), len(columns), figsize=(12.4, 4.8), sharex=True, sharey=True, layout="constrained")
+    methods = list(gallery.METHODS)
+    figure, grid = plt.subplots(len(methods), len(columns), figsize=(12.4, 7.0), sharex=True, sharey=True, layout="constrained")
     for line, method in zip(grid, methods):
         for axes, (angle, difference) in zip(line, columns):
             run = runs[f"{method}-{angle}-{difference}"]

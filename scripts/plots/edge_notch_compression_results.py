@@ -70,17 +70,13 @@ def row_of(name, run):
             "steps": run.summary["steps"]}
 
 
-def number(value, form):
-    return format(value, form) if math.isfinite(value) else "-"
-
-
 def rock_of(row):
     return "isotropic" if row["ratio"] == 1 else f"E_h/E_v = {row['ratio']}, bedding at {row['bedding_deg']}°"
 
 
 def table(rows):
     lines = [[f"{gallery.METHODS[r['method']]}, {rock_of(r)}", f"{r['platen_modulus_GPa']:.1f}", f"{r['s22_GPa']:.1f}",
-              number(r["first_break_kN_m"], ".0f"), number(r["wing_deg"], ".0f"),
+              gallery.number(r["first_break_kN_m"], ".0f"), gallery.number(r["wing_deg"], ".0f"),
               f"{r['by_energy_deg']:.0f}, {r['by_strength_deg']:.0f}", f"{r['broken_mm']:.0f}", f"{r['energy_residual_max']:.1e}"] for r in rows]
     return results_page.markdown(["method, rock", "modulus between platens [GPa]", "without slit 1/s22",
                                   "force at first break [kN/m]", "wing [°]", "theory, by energy, by strength",
@@ -118,7 +114,7 @@ def draw(runs, rows, path):
         axes.set(xlim=(-25, 5), ylim=(-22, 20), aspect="equal")
         axes.set_title("isotropic" if ratio == 1 else f"E_h/E_v = {ratio},\nbedding at {angle}°", fontsize=8.5, loc="left")
     handles = {text: handle for axes in grid for handle, text in zip(*axes.get_legend_handles_labels())}
-    figure.subplots_adjust(left=0.04, right=0.99, top=0.9, bottom=0.2, wspace=0.1)
+    figure.subplots_adjust(left=0.05, right=0.99, top=0.9, bottom=0.2, wspace=0.1)
     figure.legend(handles.values(), handles.keys(), loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=5)
     grid[0].set_ylabel("y [mm]")
     grid[len(grid) // 2].set_xlabel("x [mm]; brown: bedding; grey: slit")

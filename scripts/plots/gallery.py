@@ -17,6 +17,16 @@ def method_of(name):
     return name.split("-")[0]
 
 
+def number(value, form):
+    """Its text, or a dash where there is none."""
+    return format(value, form) if math.isfinite(value) else "-"
+
+
+def toughness(rock):
+    """K_Ic [Pa m^0.5] of isotropic rock, plane strain."""
+    return math.sqrt(rock["young_modulus"] / (1.0 - rock["poisson_ratio"] ** 2) * rock["fracture_energy_mode1"])
+
+
 def peak_force(run, load, axis="y"):
     """Largest magnitude of a load's force [N/m] and its time [s]."""
     force = np.abs(run.history[f"{load}_force_{axis}_N_m"])

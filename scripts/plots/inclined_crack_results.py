@@ -30,11 +30,8 @@ def kink(beta):
 
 def reference(case, beta):
     """Kink [degrees] and stress [Pa] at which the slit starts to grow."""
-    rock = case["rock"]
-    modulus = rock["young_modulus"] / (1.0 - rock["poisson_ratio"] ** 2)
     theta, share = kink(math.radians(beta))
-    toughness = math.sqrt(modulus * rock["fracture_energy_mode1"])
-    return abs(math.degrees(theta)), toughness / (FINITE_WIDTH * share * math.sqrt(math.pi * HALF_LENGTH))
+    return abs(math.degrees(theta)), gallery.toughness(case["rock"]) / (FINITE_WIDTH * share * math.sqrt(math.pi * HALF_LENGTH))
 
 
 def row_of(name, run):

@@ -60,7 +60,7 @@ def growth(run):
 def row_of(name, run):
     method, kind = name.split("-", 1)
     rock, lines = run.case["rock"], growth(run)
-    toughness = math.sqrt(rock["young_modulus"] / (1.0 - rock["poisson_ratio"] ** 2) * rock["fracture_energy_mode1"])
+    toughness = gallery.toughness(rock)
     beyond = (lines[:, 2] > HALF + THROUGH) | (lines[:, 1] < -HALF - THROUGH)
     first = int(np.argmax(beyond)) if beyond.any() else None
     # What it took to get through: the largest pressure from the time the first end was at an interface.
@@ -82,14 +82,10 @@ def row_of(name, run):
                   "steps": run.summary["steps"]}
 
 
-def number(value, form):
-    return format(value, form) if math.isfinite(value) else "-"
-
-
 def table(rows):
     lines = [[f"{gallery.METHODS[r['method']]}, {label(r['kind'])}", f"{r['breakdown_MPa']:.2f}",
-              number(r["through_MPa"], ".2f"), number(r["through_ms"], ".2f"),
-              f"{r['lowest_mm']:.0f} to {r['highest_mm']:.0f}", number(r["over_theory_percent"], "+.0f") +
+              gallery.number(r["through_MPa"], ".2f"), gallery.number(r["through_ms"], ".2f"),
+              f"{r['lowest_mm']:.0f} to {r['highest_mm']:.0f}", gallery.number(r["over_theory_percent"], "+.0f") +
               (" %" if math.isfinite(r["over_theory_percent"]) else ""), f"{r['energy_residual_max']:.1e}"] for r in rows]
     return results_page.markdown(["run", "breakdown [MPa]", "through an interface [MPa]", "at [ms]", "grown over [mm]",
                                   "pressure over theory's, mean", "energy residual"], lines)
@@ -126,7 +122,9 @@ def draw(runs, rows, path):
             if j > 0:
                 axes.set_yticklabels([])
             else:
-                axes.set_ylabel(name, fontsize=8)
+                axes.set_ylabel(f"{name}\ny [mm]", fontsize=8)
+            if i == len(gallery.METHODS) - 1:
+                axes.set_xlabel("x [mm]", fontsize=8)
     axes = figure.add_subplot(grid[0, -4:])
     for method, name in gallery.METHODS.items():
         mine = [(float(r["kind"].split("-")[1]), r["through_MPa"]) for r in rows
@@ -143,7 +141,7 @@ def draw(runs, rows, path):
             run = runs[f"{method}-{kind}"]
             rock, lines = run.case["rock"], growth(run)
             step = -run.case["layers"][0]["stress_xx"]
-            toughness = math.sqrt(rock["young_modulus"] / (1.0 - rock["poisson_ratio"] ** 2) * rock["fracture_energy_mode1"])
+            toughness = gallery.toughness(rock)
             length = 1e3 * (lines[:, 2] - lines[:, 1])
             axes.plot(length, 1e-6 * lines[:, 3], gallery.MARKERS[method], markersize=3, color=gallery.COLORS[method])
             axes.plot(length, [1e-6 * theory(low, high, step, toughness) for _, low, high, _ in lines],

@@ -95,20 +95,16 @@ def row_of(name, run, known):
     return row | {"energy_residual_max": run.summary["energy_residual_max"], "triangles": run.summary["triangles"]}, paths
 
 
-def number(value, form):
-    return format(value, form) if math.isfinite(value) else "-"
-
-
 def table(rows):
     lines = []
     for r in rows:
         off = [r[f"y_2_tip{t}"] - r["reference_y_2"] for t in (1, 2)]
         turn = [r[f"dir_2_tip{t}_deg"] - r["reference_dir_2_deg"] for t in (1, 2)]
         lines.append([f"{gallery.METHODS[r['method']]}, {r['beta_deg']}°", f"{r['R']:.2f}",
-                      ", ".join(number(r[f"y_2_tip{t}"], ".2f") for t in (1, 2)), f"{r['reference_y_2']:.2f}",
-                      ", ".join(number(o, "+.2f") for o in off),
-                      ", ".join(number(r[f"dir_2_tip{t}_deg"], ".0f") for t in (1, 2)), f"{r['reference_dir_2_deg']:.0f}",
-                      ", ".join(number(t, "+.0f") for t in turn), f"{r['energy_residual_max']:.1e}"])
+                      ", ".join(gallery.number(r[f"y_2_tip{t}"], ".2f") for t in (1, 2)), f"{r['reference_y_2']:.2f}",
+                      ", ".join(gallery.number(o, "+.2f") for o in off),
+                      ", ".join(gallery.number(r[f"dir_2_tip{t}_deg"], ".0f") for t in (1, 2)), f"{r['reference_dir_2_deg']:.0f}",
+                      ", ".join(gallery.number(t, "+.0f") for t in turn), f"{r['energy_residual_max']:.1e}"])
     return results_page.markdown(["method, angle of the notch", "R", "y(2 a0)/a0, both tips", "theory",
                                   f"off (gate {GATE_Y})", "direction at 2 a0 [°]", "theory", f"off (gate {GATE_DIRECTION:.0f}°)",
                                   "energy residual"], lines)

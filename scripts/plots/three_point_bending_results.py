@@ -36,14 +36,10 @@ def row_of(name, run):
                   "steps": run.summary["steps"]}
 
 
-def number(value, form):
-    return format(value, form) if math.isfinite(value) else "-"
-
-
 def table(rows):
     names = {"fast": "5 m/s", "slow": "0.3 m/s"}
     lines = [[f"{gallery.METHODS[r['method']]}, {names[r['kind']]}, e = {r['eccentricity_mm']} mm", f"{r['peak_kN_m']:.0f}",
-              number(r["first_10mm_deg"], "+.0f")] + [number(r[f"x_at_{h * 1e3:.0f}mm_mm"], "+.1f") for h in HEIGHTS]
+              gallery.number(r["first_10mm_deg"], "+.0f")] + [gallery.number(r[f"x_at_{h * 1e3:.0f}mm_mm"], "+.1f") for h in HEIGHTS]
              + [f"{r['energy_residual_max']:.1e}"] for r in rows]
     return results_page.markdown(["run", "peak force [kN/m]", "lean over the first 10 mm [°]", "x at 10 mm [mm]",
                                   "at 20 mm", "at 30 mm", "energy residual"], lines)
@@ -57,11 +53,11 @@ def gates(rows):
     straight = max(abs(known[f"{m}-fast-0"][f"x_at_{h * 1e3:.0f}mm_mm"]) for m in ("demand",) for h in HEIGHTS)
     apart = max(abs(known[f"demand-{k}-{e}"][f"x_at_{h * 1e3:.0f}mm_mm"] - known[f"damage-{k}-{e}"][f"x_at_{h * 1e3:.0f}mm_mm"])
                 for k in ("fast", "slow") for e in (0, 20) for h in HEIGHTS)
-    lines = [["slow: lean over the first 10 mm, both eccentricities, edges", "5° at most", number(slow["demand"], ".1f") + "°"],
-             ["the same, damage (coarse in directions)", "none", number(slow["damage"], ".1f") + "°"],
-             ["fast, e = 20 mm: leans to the striker's side", "above 0°", number(lean, "+.1f") + "°"],
-             ["fast, e = 0, edges: off the notch's plane", "2 mm (an edge) at most", number(straight, ".1f") + " mm"],
-             ["damage against edges over 30 mm", "4 mm at most", number(apart, ".1f") + " mm"]]
+    lines = [["slow: lean over the first 10 mm, both eccentricities, edges", "5° at most", gallery.number(slow["demand"], ".1f") + "°"],
+             ["the same, damage (coarse in directions)", "none", gallery.number(slow["damage"], ".1f") + "°"],
+             ["fast, e = 20 mm: leans to the striker's side", "above 0°", gallery.number(lean, "+.1f") + "°"],
+             ["fast, e = 0, edges: off the notch's plane", "2 mm (an edge) at most", gallery.number(straight, ".1f") + " mm"],
+             ["damage against edges over 30 mm", "4 mm at most", gallery.number(apart, ".1f") + " mm"]]
     return results_page.markdown(["check", "gate", "got"], lines)
 
 

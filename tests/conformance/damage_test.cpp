@@ -10,6 +10,7 @@
 #include <ostream>
 #include <tuple>
 
+#include "../acceptance.hpp"
 #include "../granite.hpp"
 #include "../result.hpp"
 
@@ -153,6 +154,12 @@ TEST_P(DamageLaw, DissipatesItsFractureEnergies) {
     const double miss = (s.booked() + s.crack().stored - s.work) / s.work;
     std::printf("%s: work over G %+.1e, cycle %.1e, ledger %.1e\n", shear ? "shear" : "tension", error, cycle,
                 miss);
+    const bool cut_off = law->name() == "exponential";
+    accept("T1",
+           "a triangle, " + law->name() + (faithful() ? ", faithful, " : ", ") +
+               (shear ? "shear" : "tension") + ", unloaded on the way: work over G",
+           cut_off ? "2e-3" : "1e-4", text("%.1e", std::abs(error)),
+           std::abs(error) < (cut_off ? 2e-3 : 1e-4));
     EXPECT_TRUE(s.crack().failed);
     // In shear the recommended preset follows the curve too: nothing opens.
     EXPECT_LT(std::abs(error), law->name() == "exponential" ? 2e-3 : 1e-4);
@@ -199,6 +206,8 @@ TEST_P(DamageLaw, TurnsWithTheTriangle) {
     EXPECT_NEAR(turned.crack().stress.xx, xx, 1e-10 * std::abs(xx));
   }
   std::printf("turned by 90 degrees and more: forces %.1e\n", worst);
+  if (law->name() == "linear" && !faithful())
+    accept("T2", "triangle turned by 90 degrees", "1e-10", text("%.1e", worst), worst < 1e-10);
   EXPECT_LT(worst, 1e-10);
 }
 
@@ -320,6 +329,9 @@ TEST_P(DamageLaw, ClosedCracksRub) {
   std::printf(
       "friction: work of a cycle %+.1e, booked %+.1e; largest change of force in 1/1000 of a cycle %.1e\n",
       taken.x / expected - 1.0, taken.y / expected - 1.0, jump);
+  if (law->name() == "linear" && !faithful())
+    accept("T2", "closed crack that rubs: work of a cycle (8000 steps a cycle: the steps' error)", "1e-8",
+           text("%.1e", std::abs(taken.x / expected - 1.0)), std::abs(taken.x / expected - 1.0) < 1e-8);
   EXPECT_NEAR(taken.x, expected, 1e-5 * expected);
   EXPECT_NEAR(taken.y, taken.x, 1e-5 * expected);
   EXPECT_LT(jump, 0.01);
@@ -406,6 +418,10 @@ TEST(DamageSize, LimitsOfTheGranite) {
   for (const auto& [name, limit] : expected) {
     const auto found = size_limits(m, *find_softening(name), granite::stiffness(), {1.0, 0.0});
     std::printf("%s: %.2f mm in tension, %.3f mm in shear\n", name.c_str(), 1e3 * found[0], 1e3 * found[1]);
+    accept("T10", "size limits of the paper's granite, " + name,
+           text("%.1f mm in tension, %.2f mm in shear", 1e3 * limit[0], 1e3 * limit[1]),
+           text("%.1f, %.2f mm", 1e3 * found[0], 1e3 * found[1]),
+           std::abs(found[0] - limit[0]) < 0.06e-3 && std::abs(found[1] - limit[1]) < 0.006e-3);
     EXPECT_NEAR(found[0], limit[0], 0.06e-3);
     EXPECT_NEAR(found[1], limit[1], 0.006e-3);
   }
@@ -439,6 +455,7 @@ TEST(DamageLength, OfABandIsThatOfTheCrack) {
   std::printf(
       "sum of A/l over a band: %.1e; with each triangle parted at its centroid %.2f, by its chord %.2f off\n",
       worst, oliver, chord);
+  accept("T4", "sum of area over element length along a band", "1e-12", text("%.0e", worst), worst < 1e-12);
   EXPECT_LT(worst, 1e-12);
 }
 
@@ -466,6 +483,10 @@ TEST(DamageFaithful, MixedModeFailsAtTheEnergySumAndBooksTheDrop) {
     const double booked = s.booked() / area * length;
     std::printf("psi %.0f: G_I/G_Ic %.4f, G_II/G_IIc %.4f, sum %.4f; work %.3f, booked %.3f J/m2\n", degrees,
                 opened, slid, opened + slid, total, booked);
+    accept("T1", text("faithful, mixed mode at %.0f degrees: sum of G_i/G_ic at failure", degrees), "0.1 %",
+           text("%.4f", opened + slid), std::abs(opened + slid - 1.0) < 1e-3);
+    accept("T1", text("faithful, mixed mode at %.0f degrees: work, %.2f J/m2", degrees, work), "0.5 %",
+           text("%.2f J/m2", total), std::abs(total / work - 1.0) < 5e-3);
     EXPECT_NEAR(opened + slid, 1.0, 1e-3);
     EXPECT_NEAR(booked, total, 1e-3 * total);
     EXPECT_NEAR(total, work, 5e-3 * work);

@@ -41,6 +41,8 @@ Slip slip_of(double size) {
   scene.cohesive.tan_residual = tan_phi;
   scene.insertion.on_demand = true;
   scene.insertion.threshold = never;
+  // The crack lets go at once. Less damped it overshoots, and friction holds it there: 4 % too far undamped.
+  scene.damping.ratio = 0.5;
   for (Index e = 0; e < scene.mesh->edge_count(); ++e) {
     if (scene.mesh->edges[at(e)].joint >= 0) scene.cracks.push_back(e);
   }
@@ -73,8 +75,10 @@ TEST(ClosedCrack, SlidesAsItsFrictionLetsIt) {
   const Slip coarse = slip_of(0.07), fine = slip_of(0.035);
   middle.result(fine.middle, std::log2(coarse.middle / fine.middle));
   area.result(fine.area, std::log2(coarse.area / fine.area));
-  EXPECT_LT(std::abs(fine.middle), 0.04);
-  EXPECT_LT(std::abs(fine.area), 0.05);
+  EXPECT_LT(std::abs(fine.middle), 0.02);
+  EXPECT_LT(std::abs(fine.area), 0.03);
+  EXPECT_GT(coarse.middle / fine.middle, 1.7);
+  EXPECT_GT(coarse.area / fine.area, 1.7);
 }
 
 // A P pulse u(x − ct) = exp(−½ (x − ct)²/w²) meets a closed crack of stiffness k per area: at the

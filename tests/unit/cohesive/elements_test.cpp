@@ -95,30 +95,44 @@ TEST(CohesiveElement, SlidInModeTwoGivesItsFractureEnergy) {
   }
 }
 
-// An edge under 20 MPa of shear gets a spring that holds 5 J/m2. It unloads, which the rock gains, and is
-// pulled apart: that is paid back, the fracture energy dissipated, and nothing made on the way.
-TEST(CohesiveElement, WhatInsertionGaveIsPaidBackByBreaking) {
-  const double h = 3e-3;
-  const auto mesh = one_edge(h);
-  for (const char* law : {"linear", "benzeggagh_kenane"}) {
-    State state = make_tied_state(mesh);
+// An edge of granite of a length [m] under 20 MPa of shear, its element just inserted; both triangles are
+// held, so that the element bears what the stress asks.
+struct Loaded {
+  Loaded(const char* law, double h)
+      : mesh(one_edge(h)), state(make_tied_state(mesh)), cohesive(find_law(law), granite()) {
     set_mass(state, 2500);
     const Bulk bulk(*mesh, isotropic_plane_strain(35e9, 0.27), 2500, Sym2{0, 0, 20e6}, {});
-    Cohesive cohesive(find_law(law), granite());
     const auto rock = [&](Index corner) {
       return bulk.triangle_forces(state, corner / 3)[static_cast<std::size_t>(corner % 3)];
     };
     Index edge = 0;
     while (mesh->edges[static_cast<std::size_t>(edge)].triangle[1] < 0) ++edge;
-    const bool upper_is_a = mesh->edges[static_cast<std::size_t>(edge)].triangle[0] == 0;
-    for (double& m : state.inverse_mass) m = 0.0;  // held: the element bears what the stress asks
+    upper_is_a = mesh->edges[static_cast<std::size_t>(edge)].triangle[0] == 0;
+    for (double& m : state.inverse_mass) m = 0.0;
     cohesive.insert(state, {{edge}}, {{120e9}}, {{0}}, rock, [](Index) { return Vec2{}; });
-    const auto force = [&] {
-      const EndForces& f = state.cohesive.force[0];
-      return (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1);
-    };
     cohesive.add_tractions(state);
-    Vec2 before = force();
+  }
+  // On the upper triangle [N/m].
+  Vec2 force() const {
+    const EndForces& f = state.cohesive.force[0];
+    return (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1);
+  }
+
+  std::shared_ptr<const Mesh> mesh;
+  State state;
+  Cohesive cohesive;
+  bool upper_is_a = false;
+};
+
+// An edge under 20 MPa of shear gets a spring that holds 5 J/m2. It unloads, which the rock gains, and is
+// pulled apart: that is paid back, the fracture energy dissipated, and nothing made on the way.
+TEST(CohesiveElement, WhatInsertionGaveIsPaidBackByBreaking) {
+  const double h = 3e-3;
+  for (const char* law : {"linear", "benzeggagh_kenane"}) {
+    Loaded edge(law, h);
+    State& state = edge.state;
+    Cohesive& cohesive = edge.cohesive;
+    Vec2 before = edge.force();
     const double given = state.cohesive.histories[0].point[2].inserted;
     const double back = before.x / 120e9;  // [m]
     double work = 0.0, booked = 0.0, worst = 0.0;
@@ -130,9 +144,9 @@ TEST(CohesiveElement, WhatInsertionGaveIsPaidBackByBreaking) {
         state.displacement[static_cast<std::size_t>(state.node_of_corner[static_cast<std::size_t>(corner)])] =
             d;
       cohesive.add_tractions(state);
-      work -= 0.5 * dot(force() + before, d - moved) / h;
+      work -= 0.5 * dot(edge.force() + before, d - moved) / h;
       moved = d;
-      before = force();
+      before = edge.force();
       EXPECT_GE(state.dissipation.fracture, booked * h);
       booked = state.dissipation.fracture / h;
       worst = std::max(worst, std::abs(cohesive.stored_energy(state) / h + booked - work));
@@ -175,26 +189,14 @@ class HandWork {
 // own entry, with which the ledger closes.
 TEST(CohesiveElement, WhatAHingeDoesNotPayBackIsCounted) {
   const double h = 3e-3;
-  const auto mesh = one_edge(h);
   for (const char* law : {"linear", "benzeggagh_kenane"}) {
-    State state = make_tied_state(mesh);
-    set_mass(state, 2500);
-    const Bulk bulk(*mesh, isotropic_plane_strain(35e9, 0.27), 2500, Sym2{0, 0, 20e6}, {});
-    Cohesive cohesive(find_law(law), granite());
-    const auto rock = [&](Index corner) {
-      return bulk.triangle_forces(state, corner / 3)[static_cast<std::size_t>(corner % 3)];
-    };
-    Index edge = 0;
-    while (mesh->edges[static_cast<std::size_t>(edge)].triangle[1] < 0) ++edge;
-    const bool upper_is_a = mesh->edges[static_cast<std::size_t>(edge)].triangle[0] == 0;
-    for (double& m : state.inverse_mass) m = 0.0;
-    cohesive.insert(state, {{edge}}, {{120e9}}, {{0}}, rock, [](Index) { return Vec2{}; });
-    cohesive.add_tractions(state);
+    Loaded edge(law, h);
+    State& state = edge.state;
+    Cohesive& cohesive = edge.cohesive;
     HandWork work;
     work.until_now(state);
-    const EndForces& f = state.cohesive.force[0];
     const double given = state.cohesive.histories[0].point[2].inserted;
-    const double back = (upper_is_a ? 1.0 : -1.0) * (f.end0 + f.end1).x / 120e9;
+    const double back = edge.force().x / 120e9;
     double worst = 0.0, made = 0.0;
     const int n = 20000;
     for (int i = 1; i <= 2 * n; ++i) {

@@ -8,6 +8,7 @@
 
 #include <numeric>
 
+#include "../../acceptance.hpp"
 #include "../../result.hpp"
 #include "crackle/mesh/grid.hpp"
 #include "scenes.hpp"
@@ -81,6 +82,7 @@ TEST(DamagedPlate, CentreSlotBreaksAtGriffithsStress) {
   const Check check("T6 damaged plate with a slot: peak stress");
   const double reference = 2.286e6;
   double worst = 0.0;
+  bool within = true;
   for (const std::string kind : {"right", "jittered"}) {
     Mesh mesh = plate(60 * mm, 101 * mm, 60, 101, "right");
     mesh = without(mesh, [](Vec2 c) { return std::abs(c.y) < 0.5 * mm && std::abs(c.x) < 10 * mm; });
@@ -93,13 +95,18 @@ TEST(DamagedPlate, CentreSlotBreaksAtGriffithsStress) {
     EXPECT_LT(p.stress, 1.05 * reference);
     EXPECT_GT(p.dissipated, 0.93);
     EXPECT_LT(p.dissipated, 1.06);
+    within = within && p.stress > 0.93 * reference && p.stress < 1.05 * reference;
+    accept("T6", "plate with a centre slot, " + kind + ": dissipated over G L", "0.93 to 1.06",
+           text("%.3f", p.dissipated), p.dissipated > 0.93 && p.dissipated < 1.06);
   }
   check.result(worst);
+  accept("T6", "plate with a centre slot, two meshes: peak against 2.286 MPa", "-7 to +5 %",
+         text("%.1f %% at most", 100 * worst), within);
 }
 
 TEST(DamagedPlate, InclinedNotchNeedsAllStressDropped) {
   const Check check("T9 damaged plate with an inclined notch: peak stress");
-  double worst = 0.0, locked = 0.0;
+  double worst = 0.0, locked = 0.0, residual = 0.0;
   for (const double degrees : {30.0, 45.0}) {  // from x; the load is along y
     const double reference = degrees == 30.0 ? 2.365e6 : 2.69e6;
     for (const std::string kind : {"right", "alternate", "jittered"}) {
@@ -115,6 +122,7 @@ TEST(DamagedPlate, InclinedNotchNeedsAllStressDropped) {
         print("notch at " + std::to_string(static_cast<int>(degrees)) + ", " + kind +
                   (all ? "" : ", stress along it kept"),
               p, reference);
+        residual = std::max(residual, p.residual);
         if (all) worst = std::max(worst, std::abs(p.stress / reference - 1.0));
         // along the mesh's diagonals nothing has to zigzag
         if (!all && degrees == 45.0 && kind != "right") locked = std::max(locked, p.stress / reference - 1.0);
@@ -122,6 +130,11 @@ TEST(DamagedPlate, InclinedNotchNeedsAllStressDropped) {
     }
   }
   check.result(worst);
+  accept("T9", "notch at 30 and 45 degrees, three meshes: peak against 2.365 and 2.69 MPa", "8 %",
+         text("%.1f %% at most", 100 * worst), worst < 0.08);
+  accept("T9", "the same with the stress along a failed crack kept, 45 degrees: it locks",
+         "19 % or more on a mesh", text("%+.1f %%", 100 * locked), locked > 0.19);
+  accept("T13", "energy residual, plates with notches", "1e-3", text("%.1e", residual), residual < 1e-3);
   EXPECT_LT(worst, 0.08);
   EXPECT_GT(locked, 0.19) << "documented: on some meshes it locks";
 }
@@ -164,6 +177,8 @@ TEST(DamagedPlate, SlotUnderPressureGrows) {
   for (const std::string kind : {"right", "jittered"})
     worst = std::max(worst, std::abs(slot_under_pressure(kind, false, 3.04e6)));
   check.result(worst);
+  accept("T8", "slot under pressure, wet when failed: pressure at 5 mm of growth against 3.04 MPa", "6 %",
+         text("%.1f %% at most", 100 * worst), worst < 0.06);
   EXPECT_LT(worst, 0.06);
 }
 
@@ -175,6 +190,8 @@ TEST(DamagedPlate, SlotWithAWetTipGrowsAtGriffithsPressure) {
   for (const std::string kind : {"right", "jittered"})
     worst = std::max(worst, std::abs(slot_under_pressure(kind, true, 2.40e6)));
   check.result(worst);
+  accept("T8", "the same with the fluid in damaged triangles, up to the tip, against Griffith's 2.40 MPa",
+         "6 %", text("%.1f %% at most", 100 * worst), worst < 0.06);
   EXPECT_LT(worst, 0.06);
 }
 
