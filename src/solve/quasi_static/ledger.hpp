@@ -9,7 +9,9 @@
 //   friction    Σ τ Δs_p of closed faces (their elastic slip is left out)
 //   faces       ∫ what bonds and asperities give back ds     fracture  ∫ G(w_m) ds
 // The fluid's work on the faces follows from the rest; so a step too long, or an equation that is not
-// solved, shows as residual.
+// solved, shows as residual. It takes that whoever presses a face has the fluid for it (a dry edge ahead of
+// the tip takes its volume from the cell that presses it), and that nothing moves as a point joins the path
+// (growth.hpp).
 #pragma once
 
 #include "newton.hpp"

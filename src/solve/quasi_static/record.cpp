@@ -19,7 +19,9 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 double behind_front(const Equations& e, const State& state, Index tip) {
   double x = 0.0, moment = 0.0, force = 0.0;
   for (Index c = state.cells[at(tip)].parent; c >= 0; c = state.cells[at(c)].parent) {
-    const double sigma = e.laws[at(c)].cohesion(state.cells[at(c)].points[0].max_opening);
+    const double most = state.cells[at(c)].points[0].max_opening;
+    if (force == 0.0 && most <= e.laws[at(c)].elastic_opening()) continue;  // not yet damaged
+    const double sigma = e.laws[at(c)].cohesion(most);
     const Index parent = state.cells[at(c)].parent;
     if (sigma == 0.0 || parent < 0) break;
     const double to = x + 0.5 * (e.path.edges()[at(c)].length + e.path.edges()[at(parent)].length);
