@@ -321,7 +321,7 @@ std::vector<TableSpec> make_tables() {
     }),
     {"well", {
       number("height", slot<&C::well, &C::Well::height>(), length, positive, Need::never, "of the fracture: rates, storage and friction are shared by it, in the quasi-static regime"),
-      number("storage", slot<&C::well, &C::Well::storage>(), storage, not_negative, Need::never, "volume of the well times compressibility"),
+      number("storage", slot<&C::well, &C::Well::storage>(), storage, not_negative, Need::never, "volume of the well times compressibility, without that of a wellbore in the mesh"),
       number("impedance", slot<&C::well, &C::Well::impedance>(), impedance, not_negative, Need::never, "density times sound speed over cross section: bounds the rate at breakdown"),
       number("impedance_time", slot<&C::well, &C::Well::impedance_time>(), duration, not_negative, Need::never, "for which it acts after breakdown, 2 L/c"),
       number("perforation_friction", slot<&C::well, &C::Well::perforation_friction>(), friction_of_rate, not_negative, Need::never, "pressure lost per rate squared"),

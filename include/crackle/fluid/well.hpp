@@ -5,6 +5,7 @@
 //   p_w − p = Z q + k_perf q |q| + k_tort q/√|q|
 // Z = ρ c / A is the acoustic impedance of the casing: it bounds the rate right after breakdown, when
 // the well empties faster than waves run along it. It acts for `impedance_time` (2 L/c) after breakdown.
+// Storage is that of what the mesh does not have: the fluid in a wellbore of the mesh comes on top.
 // All per metre of thickness: divide the storage of a well, and multiply Z, by the fracture's height.
 //
 // | parameter         | unit        | range | meaning                                        |

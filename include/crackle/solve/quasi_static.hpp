@@ -9,8 +9,9 @@
 // elastic one; this is iterated within the step. Tension positive; volumes at reference density, per
 // metre of thickness.
 // Faces open, and on general paths slip. A tip chooses its next edge by the stress round it; joints take part
-// from the beginning, with friction, and take fluid where a fracture meets them. Limits: elastic rock, no
-// stress from fluid that leaks off, no inertia; joints do not grow at their ends.
+// from the beginning, with friction, and take fluid where a fracture meets them. Where the mesh has a
+// wellbore its excavation and the pressure of the well load the rock, and its fluid is part of the well's.
+// Limits: elastic rock, no stress from fluid that leaks off, no inertia; joints do not grow at their ends.
 #pragma once
 
 #include <functional>
@@ -38,11 +39,13 @@ enum class Wetting : std::uint8_t {
   broken,        ///< only edges without any cohesion left hold fluid (Y-Geo)
 };
 
-/// A fracture that starts at the well and follows given edges, as far as they go.
+/// A fracture that starts at the well, or the wall of the wellbore, and follows given edges, as far as they
+/// go.
 struct Wing {
   Index start = -1;         ///< vertex at the well
   std::vector<Index> path;  ///< mesh edges in order
-  std::size_t open = 1;     ///< how many of them are broken, and filled, from the beginning
+  /// How many of them are broken, and filled, from the beginning; 0: none, at the wall of a wellbore.
+  std::size_t open = 1;
   /// Beyond its path it goes on along the edge whose direction is nearest to that across which the
   /// mean stress round its tip pulls most.
   bool free = false;
