@@ -226,9 +226,9 @@ void Simulation::grade_masses() {
 }
 
 void Simulation::relax() {
-  // Only where no node will part, whose parts would have to be graded anew.
+  // Round a cut waves have far to go. Only where no node will part, whose parts would have to be graded anew.
   const std::vector<double> inverse_mass = state_.inverse_mass;
-  const bool graded = cohesive_ && !scene_.insertion.on_demand;
+  const bool graded = cohesive_ && !scene_.insertion.on_demand && !scene_.cracks.empty();
   if (graded) grade_masses();
   come_to_rest();
   if (graded) state_.inverse_mass = inverse_mass;

@@ -123,8 +123,6 @@ struct Untaken {
 void PrintTo(const Untaken& scene, std::ostream* stream) { *stream << scene.name; }
 
 const std::vector<Untaken> untaken{
-    {"NoFracture", "", "run.regime=quasi_static fracture.notch=0 wellbore.diameter=0",
-     "it starts from a fracture or the wall of a wellbore"},
     {"Layers", "[[layers]]\nbottom = 10\nyoung_modulus = 2e10\n", "", "layers are not yet taken"},
     {"Notches", "[[notches]]\nx1 = 5\ny1 = 0\nx2 = 9\ny2 = 0\n", "", "[[notches]] are not yet taken"},
     {"Loads", "[[loads]]\nside = \"top\"\ntraction_y = -1e6\n[boundary]\nouter = \"free\"\n", "",
