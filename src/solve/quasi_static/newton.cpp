@@ -356,15 +356,16 @@ std::array<double, 2> slips(const PathEdge& edge, const std::vector<double>& jum
   return {slip_of(edge.jump[0], jumps), slip_of(edge.jump[1], jumps)};
 }
 
-MixedTraction traction_at(const Equations& e, const State& s, std::size_t c, std::size_t i) {
-  const Point& point = s.cells[c].points[i];
-  const PathEdge& edge = e.path.edges()[c];
-  const double opening = openings(edge, s.jumps)[i];
-  if (e.scene.slip) {
-    return e.laws[c].traction(opening, slip_of(edge.jump[i], s.jumps), point.max_opening, point.plastic_slip,
-                              point.bond, point.bond_shear);
+MixedTraction traction_at(const Equations& equations, const State& state, std::size_t cell, std::size_t end) {
+  const Point& point = state.cells[cell].points[end];
+  const PathEdge& edge = equations.path.edges()[cell];
+  const InterfaceLaw& law = equations.laws[cell];
+  const double opening = openings(edge, state.jumps)[end];
+  if (equations.scene.slip) {
+    return law.traction(opening, slip_of(edge.jump[end], state.jumps), point.max_opening, point.plastic_slip,
+                        point.bond, point.bond_shear);
   }
-  const TractionSlope t = e.laws[c].traction(opening, point.max_opening, point.bond);
+  const TractionSlope t = law.traction(opening, point.max_opening, point.bond);
   MixedTraction all;
   all.normal = t.traction;
   all.nn = t.slope;

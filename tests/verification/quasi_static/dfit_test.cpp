@@ -133,6 +133,7 @@ TEST(Dfit, ImpedanceIsForgotten) {
     std::printf("%s %+.1f kPa; ", name, 1e-3 * by);
     moved = std::max(moved, std::abs(by));
   }
+  std::printf("\n");
   accept(15, "impedance on and off: pressures from 20 s on; largest rate; picks", "20 kPa; 0.15 m3/s; 5 kPa",
          text("%.1f kPa; %.3f m3/s; %.1f kPa", 1e-3 * worst, most[1], 1e-3 * moved),
          worst <= 20e3 && most[1] <= 0.15 && moved <= 5e3);
