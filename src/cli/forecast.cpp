@@ -39,7 +39,7 @@ constexpr double frame_seconds_per_byte = 1.3e-8;  // of the file, most of it co
 // The geostatic solve where it is not timed: it grows faster than the mesh (fill of the factor). Measured at
 // 1e5 and 2e6 triangles.
 constexpr double solve_seconds_at_1e5 = 1.1, solve_growth = 1.42;
-// Steps of a run that breaks over those of whole rock, on demand: granite wellbore, 1e5 and 2e6 triangles.
+// Steps of a run that breaks over those of whole rock, on demand: granite wellbore, 1e5 triangles.
 constexpr double with_fractures = 1.6;
 
 constexpr int timed_steps = 24;
