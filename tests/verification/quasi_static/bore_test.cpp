@@ -136,7 +136,7 @@ TEST(QuasiStaticBore, Kirsch) {
 // that of the crack without cohesion that opens as they do.
 TEST(QuasiStaticBore, TwoCracksGrow) {
   const Check check("D3 wellbore with two cracks in field time: pressure at which they grow");
-  QuasiStatic stage(scene(2.5e-3, 5.5 * radius, radius));
+  QuasiStatic stage(scene(2.5e-3, 6.5 * radius, radius));
   const double toughness =
       std::sqrt(plane_strain_modulus(granite::stiffness()) * stage.scene().fracture_energy);
   double worst = 0.0, mass = 0.0, energy = 0.0;
