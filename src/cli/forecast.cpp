@@ -33,8 +33,9 @@ constexpr double history_row = 270.0, history_row_field_time = 450.0;
 constexpr double frame_heads = 7e3, other_files = 6e3;  // of fields and fractures; log, case, summary
 // A run in field time takes some hundred steps a stage of its pump.
 constexpr double rows_field_time = 600.0;
-constexpr double checkpoint_triangle = 510.0, checkpoint_triangle_field_time = 100.0;  // there the mesh for the most
-constexpr double frame_seconds_per_byte = 1.3e-8;  // of the file, most of it compression
+constexpr double checkpoint_triangle = 510.0,
+                 checkpoint_triangle_field_time = 100.0;  // there the mesh for the most
+constexpr double frame_seconds_per_byte = 1.3e-8;         // of the file, most of it compression
 
 // The geostatic solve where it is not timed: it grows faster than the mesh (fill of the factor). Measured at
 // 1e5 and 2e6 triangles.

@@ -83,6 +83,7 @@ RunFolder::RunFolder(const std::string& path, Use use) : path_(path.empty() ? ".
   log_ = std::make_unique<AppendedFile>(file("run.log"), AppendedFile::Mode::extend);
   if (!log_->lock()) throw CaseError(path_ + ": another crackle is running in this folder");
   require(path_);
+  if (use == Use::resume) remove_unfinished(path_);
 }
 
 RunFolder::~RunFolder() = default;
@@ -234,7 +235,6 @@ void RunFolder::go_back(const FolderMarks& marks, const std::string& used) {
     std::error_code ignored;
     fs::remove(file(name), ignored);
   }
-  remove_unfinished(path_);
 }
 
 void RunFolder::log(const std::string& line) { log_->append(wall_clock() + " " + line + "\n"); }

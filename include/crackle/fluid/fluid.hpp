@@ -83,7 +83,8 @@ class Fluid {
   void rebuild(const State& state);
 
   double energy(const State& state) const;  ///< [J/m]
-  /// Viscous dissipation of the last step that comes after its beginning, when energies are taken stock of [J/m].
+  /// Viscous dissipation of the last step that comes after its beginning, when energies are taken stock of
+  /// [J/m].
   double lost_ahead() const { return flow_ ? flow_->lost_ahead() : 0.0; }
   /// Volume of a cavity when last measured, after rebuild() or advance() [m2].
   double volume(Index cavity) const { return volume_[static_cast<std::size_t>(cavity)]; }
