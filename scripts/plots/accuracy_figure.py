@@ -13,7 +13,7 @@ PANELS = [  # (title, {question: (quantity, filled)}, label of the error)
      {"hole": ("shear_modulus_Pa", True), "pulse": ("p_wave_speed_m_s", False)},
      "filled: shear modulus · hollow: P-wave speed"),
     ("b  Breakdown pressure of the wellbore at 65 l/s", {"breakdown": ("breakdown_pressure_Pa", True)},
-     "quasi-static cohesive theory (12.45 MPa; paper preset: 12.90)"),
+     "quasi-static cohesive theory (12.45 MPa; paper preset: 12.90); field time: slowly, a straight path"),
     ("c  Pumped crack: pressure and length", {"straight": ("pressure", True), "free": ("half_length", False)},
      "filled: pressure, straight path · hollow: half-length, free path"),
     ("d  Energy dissipated per area of the crack", {"straight": ("energy_per_area_J_m2", True),
@@ -26,8 +26,8 @@ PANELS = [  # (title, {question: (quantity, filled)}, label of the error)
      "filled: plate · hollow: bar without a notch"),
 ]
 COLORS = ["#111111", "#c9a227", "#e08e00", "#d7263d", "#8e1b3a", "#7b4fa3", "#1f6fb2", "#2a9d8f", "#7fb2d9", "#5c6f82",
-          "#9aa5b1", "#0b6e4f", "#b56576"]
-MARKERS = ["s", "v", "v", "v", "v", "P", "o", "D", "<", ">", "X", "^", "*"]
+          "#9aa5b1", "#0b6e4f", "#b56576", "#3d3dd8"]
+MARKERS = ["s", "v", "v", "v", "v", "P", "o", "D", "<", ">", "X", "^", "*", "p"]
 STUDY = "default, linear"  # at several rates: in the figure of its own
 LEAST = 1e-3  # smaller errors are drawn here
 
