@@ -160,9 +160,9 @@ void pressure_loss(const Scene& scene, double end_time, Lines& lines) {
   if (k >= toughness_regime) return;
   lines.push_back(
       fmt::format("warning: the model's fluid has no viscosity and one pressure throughout; water (1 mPa s) "
-                  "at this rate would lose "
-                  "pressure along the fracture (K_m = {:.2g}; uniform pressure needs {}): take fracture "
-                  "lengths as upper bounds",
+                  "at this rate would lose pressure along the fracture (K_m = {:.2g}; uniform pressure needs "
+                  "{}): take fracture lengths as upper and pressures as lower bounds, or "
+                  "fluid.flow = \"viscous\" with a fluid.viscosity",
                   k, toughness_regime));
 }
 

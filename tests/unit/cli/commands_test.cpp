@@ -234,7 +234,7 @@ TEST_F(Commands, CheckSaysWhatARunWouldBe) {
        {"rock.young_modulus", "3.5e+10 Pa (35 GPa)", "0.663225 rad (38 deg)", "fluid.pump.0.rate",
         "0.13 m2/s", "triangles", "cohesive element", "smallest angle", "stable step", "steps of", "memory",
         "in 21 frames", "wall time about", "Hubbert-Willis", "E' = 6", "mode II",
-        "too few for the stress at its wall", "upper bounds"}) {
+        "too few for the stress at its wall", "lower bounds"}) {
     EXPECT_THAT(outcome.out, HasSubstr(part));
   }
 }
