@@ -96,6 +96,9 @@ FieldFrame field_frame(const QuasiStatic& stage, const std::vector<std::string>&
   return frame;
 }
 
+// Joints are, from the beginning.
+bool is_broken(const FractureCell& cell) { return std::min(cell.damage[0], cell.damage[1]) >= 1.0; }
+
 FractureFrame fracture_frame(const QuasiStatic& stage) {
   const Mesh& mesh = *stage.scene().mesh;
   FractureFrame frame;
@@ -109,13 +112,12 @@ FractureFrame fracture_frame(const QuasiStatic& stage) {
     const auto p = static_cast<Index>(frame.points.size());
     for (const Index v : stage.path().edges()[c].vertex) frame.points.push_back(mesh.vertices[at(v)]);
     frame.lines.push_back({p, p + 1});
-    const bool is_broken = std::min(cell.damage[0], cell.damage[1]) >= 1.0;
     opening.add(0.5 * (cell.opening[0] + cell.opening[1]));
     slip.add(0.5 * (cell.slip[0] + cell.slip[1]));
     damage.add(0.5 * (cell.damage[0] + cell.damage[1]));
-    mode.add(is_broken && !cell.joint ? static_cast<double>(FailureMode::tensile) : 0.0);
+    mode.add(is_broken(cell) && !cell.joint ? static_cast<double>(FailureMode::tensile) : 0.0);
     pressure.add(cell.pressure);
-    broken.add(is_broken ? 1.0 : 0.0);
+    broken.add(is_broken(cell) ? 1.0 : 0.0);
     leaked.add(0.5 * cell.leaked / cell.length);
   }
   frame.cell_fields = {std::move(opening),  std::move(slip),   std::move(damage), std::move(mode),
@@ -193,7 +195,8 @@ class FieldTimeRun {
   bool at_end() const { return stage_->time() >= scene_.run.end_time; }
   Progress::Now now() const {
     return {row_.time, row_.well_pressure, tally_.memory().steps,
-            static_cast<std::int64_t>(stage_->state().cells.size())};
+            std::ranges::count_if(stage_->cells(),
+                                  [](const FractureCell& c) { return !c.joint && is_broken(c); })};
   }
 
   void begin() {
