@@ -97,7 +97,8 @@ TEST(SceneWarnings, PenaltyCompliance) {
 TEST(SceneWarnings, PressureLoss) {
   Scene s = quiet_scene();
   s.pump = Pump({{0.0, end_time, 0.065}});
-  EXPECT_THAT(warnings(s), Contains(HasSubstr("take fracture lengths as upper and pressures as lower bounds")));
+  EXPECT_THAT(warnings(s),
+              Contains(HasSubstr("take fracture lengths as upper and pressures as lower bounds")));
   s.pump = Pump({{0.0, end_time, 1e-9}});
   EXPECT_THAT(warnings(s), Not(Contains(HasSubstr("lower bounds"))));
 }
