@@ -24,25 +24,116 @@
 // Parameters as in law.hpp, but that the friction spring is the elastic one: tangential_penalty has
 // no part in it. `damage` of a point is d, and its plastic_slip the mean d sₚ over the edge.
 // Limits: an edge longer than longest_edge() dissipates more than G.
-#include <algorithm>
 #include <cmath>
 
 #include "crackle/cohesive/law.hpp"
-#include "crackle/state/coulomb.hpp"
+#include "crackle/core/parallel.hpp"
 #include "evans_marathe.hpp"
 
 namespace crackle {
 namespace {
 
-// Separation at which a ray of given mode yields, and from there on to its end [m].
-struct Ray {
-  double onset, length;
+struct Point {
+  double damage, plastic_slip, normal, shear, friction, stored;
+};
+
+// Of the material and the edge.
+struct Numbers {
+  double stiffness, tensile_strength, cohesion, tan_friction, tan_residual, energy1, energy2, exponent;
+  bool exact;
 };
 
 // Products where they will do: pow() is slow, and another in every C library.
-double power(double base, double exponent) {
-  if (exponent == 4.0) return base * base * (base * base);
-  return exponent == 2.0 ? base * base : std::pow(base, exponent);
+bool by_products(double exponent) { return exponent == 4.0 || exponent == 2.0; }
+struct Products {
+  double operator()(double base, double exponent) const {
+    const double square = base * base;
+    return exponent == 4.0 ? square * square : square;
+  }
+};
+struct Power {
+  double operator()(double base, double exponent) const {
+    return by_products(exponent) ? Products()(base, exponent) : std::pow(base, exponent);
+  }
+};
+
+// Without a branch, so that a loop over points vectorises.
+template <class P>
+[[gnu::always_inline]] inline Point moved(const Numbers& m, double opening, double slip, double damage,
+                                          double plastic_slip, const P& power) {
+  const double k = m.stiffness;
+  const double pull = opening > 0.0 ? opening : 0.0, push = opening < 0.0 ? -opening : 0.0;
+  const double strength = m.cohesion + k * push * m.tan_friction;
+  const double residual = k * push * m.tan_residual;
+  // The slider of the broken share.
+  const double before = damage > 0.0 ? plastic_slip / damage : 0.0;
+  const double trial = k * (slip - before);
+  const double rub = trial > residual ? residual : trial < -residual ? -residual : trial;
+  double slid = rub == trial ? before : slip - rub / k;
+
+  // The nearer of both strengths on the present ray is `limit`, reached by the component `along`. Of a closed
+  // edge softens what is above residual friction.
+  const double slide = std::abs(slid);
+  const double square = pull * pull + slid * slid;
+  const double separation = std::sqrt(square);
+  const bool open = pull > 0.0;
+  const bool shears = !open || m.tensile_strength * slide > m.cohesion * pull;
+  const double above = strength - residual, least = 0.1 * strength;
+  const double drop = above > least ? above : least;
+  const double limit = open ? (shears ? m.cohesion : m.tensile_strength) : drop;
+  const double share = limit / (k * (shears ? slide : pull));  // δ₀/δ
+  const double onset = share * separation, peak = k * onset;
+  const double mixed = m.energy1 + (m.energy2 - m.energy1) * power(slid * slid / square, m.exponent);
+  const double energy = open ? mixed : m.energy2;
+  const double rise = open ? 0.5 * peak * onset : (0.5 * strength - residual) * (strength / k);
+  const double rest = energy - rise, floor = 0.01 * energy;
+  const double soft = m.exact ? (rest > floor ? rest : floor) : 3.0 * energy;  // δ_t times what it falls from
+  const double from = m.exact ? evans_marathe_integral * (open ? peak : drop) : (open ? peak : strength);
+  const double done = (separation - onset) * from / soft;
+  const double broken = done < 1.0 ? 1.0 - evans_marathe_softening(done) * share : 1.0;
+  const bool grows = share < 1.0 && broken > damage;
+  const double d = grows ? broken : damage;
+  const bool whole = d == 0.0;  // nothing is broken yet that could rub
+  slid = whole ? 0.0 : slid;
+
+  Point p;
+  p.damage = d;
+  p.plastic_slip = d * slid;
+  p.friction = whole ? 0.0 : rub;
+  const double left = 1.0 - d, stuck = slip - slid;
+  p.normal = k * (left * pull - push);
+  p.shear = k * (slip - p.plastic_slip) - p.friction;
+  p.stored = 0.5 * k * (left * (pull * pull + slip * slip) + d * (stuck * stuck) + push * push);
+  return p;
+}
+
+template <class P>
+[[gnu::always_inline]] inline void move_lanes(const ElementLanes& e, const LaneRow& exponent,
+                                              const LaneRow& exact, PointLanes& p, const P& power) {
+#pragma omp simd
+  for (std::size_t l = 0; l < element_lanes; ++l) {
+    const Numbers m{e.penalty[l] / e.length[l],
+                    e.tensile_strength[l],
+                    e.cohesion[l],
+                    e.tan_friction[l],
+                    e.tan_residual[l],
+                    e.fracture_energy_mode1[l] + p.given[l],
+                    e.fracture_energy_mode2[l] + p.given[l],
+                    exponent[l],
+                    exact[l] > 0.0};
+    const Point now = moved(m, p.opening[l], p.slip[l], p.damage[l], p.plastic_slip[l], power);
+    p.damage[l] = now.damage;
+    p.plastic_slip[l] = now.plastic_slip;
+    p.normal[l] = now.normal;
+    p.shear[l] = now.shear;
+    p.friction[l] = now.friction;
+    p.stored[l] = now.stored;
+  }
+}
+
+CRACKLE_KERNEL void move_by_products(const ElementLanes& e, const LaneRow& exponent, const LaneRow& exact,
+                                     PointLanes& p) {
+  move_lanes(e, exponent, exact, p, Products());
 }
 
 class BenzeggaghKenane final : public CohesiveLaw {
@@ -71,53 +162,31 @@ class BenzeggaghKenane final : public CohesiveLaw {
 
   void move(const CohesiveMaterial& m, double length, double opening, double slip,
             CohesivePoint& p) const override {
-    const double k = m.penalty / length;
-    const double compression = std::min(k * opening, 0.0);  // [Pa], ≤ 0
-    const double pull = std::max(opening, 0.0);
+    const Point now =
+        moved({m.penalty / length, m.tensile_strength, m.cohesion, m.tan_friction, m.tan_residual,
+               m.fracture_energy_mode1, m.fracture_energy_mode2, m.mixed_mode_exponent,
+               m.calibration == Calibration::exact},
+              opening, slip, p.damage, p.plastic_slip, Power());
     p.opening = opening;
     p.slip = slip;
-    double slid = p.damage > 0.0 ? p.plastic_slip / p.damage : 0.0;
-    p.friction = coulomb_traction(k, slip, residual_strength(m, compression), slid);
-    if (p.damage < 1.0) p.damage = std::max(p.damage, damage_at(m, length, compression, pull, slid));
-    if (p.damage == 0.0) slid = p.friction = 0.0;  // nothing is broken yet that could rub
-    p.plastic_slip = p.damage * slid;
-    const double left = 1.0 - p.damage;
-    p.normal = k * (left * pull + std::min(opening, 0.0));
-    p.shear = k * (slip - p.plastic_slip) - p.friction;
-    p.stored = 0.5 * k *
-               (left * (pull * pull + slip * slip) + p.damage * (slip - slid) * (slip - slid) +
-                std::min(opening, 0.0) * std::min(opening, 0.0));
+    p.damage = now.damage;
+    p.plastic_slip = now.plastic_slip;
+    p.normal = now.normal;
+    p.shear = now.shear;
+    p.friction = now.friction;
+    p.stored = now.stored;
   }
 
- private:
-  double damage_at(const CohesiveMaterial& m, double length, double compression, double pull,
-                   double slid) const {
-    const double separation = std::sqrt(pull * pull + slid * slid);
-    const double k = m.penalty / length;
-    if (pull == 0.0) {
-      // What is above residual friction softens.
-      const double strength = shear_strength(m, compression);
-      const double drop = std::max(strength - residual_strength(m, compression), 0.1 * strength);
-      if (k * separation <= drop) return 0.0;
-      return damage_on({drop / k, softening_slip(m, length, compression)}, separation);
+  void move(const ElementLanes& e, PointLanes& p) const override {
+    LaneRow exponent{}, exact{};
+    bool products = true;
+    for (std::size_t l = 0; l < e.used; ++l) {
+      exponent[l] = e.material[l]->mixed_mode_exponent;
+      exact[l] = e.material[l]->calibration == Calibration::exact ? 1.0 : 0.0;
+      products = products && by_products(exponent[l]);
     }
-    if (k * separation <= std::min(m.tensile_strength, m.cohesion)) return 0.0;  // on no ray
-    const double across = pull / separation, along = std::abs(slid) / separation;
-    const double tension = m.tensile_strength / across;
-    const double peak = along * tension > m.cohesion ? m.cohesion / along : tension;  // t₀
-    if (k * separation <= peak) return 0.0;
-    const double share = along * along, rise = m.fracture_energy_mode2 - m.fracture_energy_mode1;
-    const double energy = m.fracture_energy_mode1 + rise * power(share, m.mixed_mode_exponent);
-    const double onset = peak / k;
-    if (m.calibration == Calibration::y_geo)
-      return damage_on({onset, y_geo_factor() * energy / peak}, separation);
-    const double left = std::max(energy - 0.5 * peak * onset, 0.01 * energy);
-    return damage_on({onset, left / (softening_integral() * peak)}, separation);
-  }
-
-  double damage_on(const Ray& ray, double separation) const {
-    const double done = (separation - ray.onset) / ray.length;
-    return done < 1.0 ? 1.0 - softening(done) * ray.onset / separation : 1.0;
+    if (products) return move_by_products(e, exponent, exact, p);
+    move_lanes(e, exponent, exact, p, Power());
   }
 };
 

@@ -57,44 +57,6 @@ ElasticForces<double> elastic_element(const State& state, const CohesiveMaterial
       {m.penalty, m.tensile_strength, m.cohesion, m.tan_friction, curvature});
 }
 
-// In the exact calibration a point has what its insertion gave it on top of the fracture energies, in
-// whichever mode it breaks, so that the fracture energy is left when that is paid back.
-CohesiveMaterial at_point(CohesiveMaterial m, const CohesivePoint& p) {
-  if (m.calibration == Calibration::exact && p.inserted > 0.0) {
-    m.fracture_energy_mode1 += p.inserted;
-    m.fracture_energy_mode2 += p.inserted;
-  }
-  return m;
-}
-
-// Work on a point in a step [J/m2]: trapezoidal, which is the work that the integrator does (energies at full
-// steps).
-struct StepWork {
-  double normal, shear;
-  double lost;  // friction's too, and what the law gave, less what the point holds more
-};
-
-StepWork work_of_step(const CohesivePoint& before, const CohesivePoint& now) {
-  const double slip = now.slip - before.slip;
-  const double normal = 0.5 * (now.normal + before.normal) * (now.opening - before.opening);
-  const double shear = 0.5 * (now.shear + before.shear) * slip;
-  const double friction = 0.5 * (now.friction + before.friction) * slip;
-  const double given = now.path - before.path;
-  return {normal, shear, normal + shear + friction + given - (now.stored - before.stored)};
-}
-
-// Into the cache, while those before are worked on.
-void fetch(const CohesiveHistory& h) {
-  const char* const from = reinterpret_cast<const char*>(&h);
-  for (std::size_t byte = 0; byte < sizeof h; byte += 64) __builtin_prefetch(from + byte, 1);
-}
-void fetch_nodes(const State& state, Index element) {
-  for (const Index n : state.cohesive.nodes[at(element)]) {
-    __builtin_prefetch(&state.displacement[at(n)]);
-    __builtin_prefetch(&state.velocity[at(n)]);
-  }
-}
-
 double utilisation_of(const CohesiveMaterial& m, double normal, double shear) {
   const double pull = std::max(normal, 0.0) / m.tensile_strength;
   const double push = shear / (m.cohesion - std::min(normal, 0.0) * m.tan_friction);
@@ -156,89 +118,6 @@ Vec2 Cohesive::place(const State& state, Index element) {
     sum += state.node_reference(n) + state.displacement[at(n)];
   }
   return 0.25 * sum;
-}
-
-void Cohesive::evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const {
-  CohesiveElements& c = state.cohesive;
-  const std::size_t i = at(h.element);
-  if (c.status[i] == CohesiveStatus::released) {  // general contact has taken over
-    c.force[i] = {};
-    h.slid = h.rubbed = 0.0;
-    return;
-  }
-  const double length = norm(c.direction[i]);
-  const CohesiveMaterial material = this->material(state, h.element);
-  const EndSeparation w = separation(state, h.element);
-  const std::array<double, 3> opening{w.opening0, w.opening1, 0.5 * (w.opening0 + w.opening1)};
-  const std::array<double, 3> slip{w.slip0, w.slip1, 0.5 * (w.slip0 + w.slip1)};
-  const std::array<double, 3> weight{length / 6.0, length / 6.0, 4.0 * length / 6.0};
-  const bool was_broken = c.status[i] != CohesiveStatus::active;
-  const std::array<CohesivePoint, 3> old = h.point;
-  int failed = 0;
-  bool yielding = false;
-  for (std::size_t q = 0; q < 3; ++q) {
-    law_->move(at_point(material, h.point[q]), length, opening[q], slip[q], h.point[q]);
-    yielding = yielding || h.point[q].damage > 0.0;
-    failed += h.point[q].damage >= 1.0;
-  }
-  if (!was_broken && failed >= 2) {
-    // The third point gives up at once what it still bears.
-    for (std::size_t q = 0; q < 3; ++q) {
-      h.point[q].damage = 1.0;
-      law_->move(at_point(material, h.point[q]), length, opening[q], slip[q], h.point[q]);
-    }
-    c.status[i] = CohesiveStatus::broken;
-    h.break_time = state.time;
-  }
-  double fracture = 0.0, sliding = 0.0, friction = 0.0, made = 0.0, unpaid = 0.0, path = 0.0;
-  h.slid = 0.0;
-  for (std::size_t q = 0; q < 3; ++q) {
-    CohesivePoint& p = h.point[q];
-    path += weight[q] * (p.path - old[q].path);
-    if (p.damage == 0.0) continue;
-    h.slid += weight[q] / length * (p.plastic_slip - old[q].plastic_slip);
-    const StepWork work = work_of_step(old[q], p);
-    const double paid = std::clamp(work.lost, 0.0, std::max(p.inserted - p.repaid, 0.0));
-    p.repaid += paid;
-    if (!was_broken && c.status[i] == CohesiveStatus::broken) {
-      unpaid += weight[q] * std::max(p.inserted - p.repaid, 0.0);
-      p.repaid = std::max(p.repaid, p.inserted);
-    }
-    const double dissipated = work.lost - paid;
-    const double slid = std::abs(p.plastic_slip - old[q].plastic_slip) * std::abs(p.friction);
-    const double rubbed = old[q].damage > 0.0 ? std::min(slid, std::max(dissipated, 0.0)) : 0.0;
-    // Never negative: what a step would gain is left to the ledger's residual, and to the guards.
-    const double broken = std::max(dissipated - rubbed, 0.0);
-    made += weight[q] * std::max(-work.lost, 0.0);
-    friction += weight[q] * (was_broken ? rubbed + broken : rubbed);
-    if (!was_broken) {
-      fracture += weight[q] * broken;
-      const double share = std::abs(work.shear) / (std::abs(work.shear) + std::abs(work.normal) + 1e-300);
-      sliding += weight[q] * broken * share;
-    }
-  }
-  if (yielding && h.yield_time < 0.0) {
-    h.yield_time = state.time;
-    h.face_mass = face_masses(state, h.element);
-    h.kinetic_at_yield = face_kinetic_energy(state, h.element, h.face_mass);
-  }
-  if (!was_broken && yielding) {
-    const double kinetic = face_kinetic_energy(state, h.element, h.face_mass);
-    h.kinetic_rise = std::max(h.kinetic_rise, kinetic - h.kinetic_at_yield);
-  }
-  h.fracture_energy += fracture;
-  h.sliding_work += sliding;
-  h.friction_energy += friction;
-  h.made_energy += made;
-  h.rubbed = friction;
-  sum.fracture += fracture;
-  sum.friction += friction;
-  sum.made += made;
-  sum.inserted += unpaid;
-  sum.path += path;
-  const auto& p = h.point;
-  c.force[i] = end_forces(w.direction, length / 6.0, p[0].normal, p[0].shear + p[0].friction, p[2].normal,
-                          p[2].shear + p[2].friction, p[1].normal, p[1].shear + p[1].friction);
 }
 
 void Cohesive::begin_history(State& state, Index element) {
@@ -303,36 +182,6 @@ void Cohesive::start_histories(State& state, std::span<const Index> elements, do
     place_points(state, element);  // it was elastic there still
     for (std::size_t k = 0; k < 4; ++k) state.displacement[at(nodes[k])] = now[k];
   }
-}
-
-void Cohesive::advance_histories(State& state) {
-  CohesiveElements& c = state.cohesive;
-  newly_broken_.clear();
-  // In the order in which they lie: those of elements that were inserted are met with the elements' arrays.
-  const auto count = static_cast<Index>(c.histories.size());
-  std::vector<Dissipation> partial(at(block_count(count)));
-  std::vector<std::vector<Index>> broken(partial.size());
-  for_each_block(count, [&](Index begin, Index end, Index block) {
-    for (Index j = begin; j < end; ++j) {
-      CohesiveHistory& h = c.histories[at(j)];
-      if (c.status[at(h.element)] == CohesiveStatus::intact) continue;
-      fetch(c.histories[at(std::min(j + 4, count - 1))]);
-      fetch_nodes(state, c.histories[at(std::min(j + 2, count - 1))].element);
-      const bool was_intact = c.status[at(h.element)] == CohesiveStatus::active;
-      evaluate_active(state, h, partial[at(block)]);
-      if (was_intact && c.status[at(h.element)] == CohesiveStatus::broken)
-        broken[at(block)].push_back(h.element);
-    }
-  });
-  for (std::size_t b = 0; b < partial.size(); ++b) {
-    state.dissipation.fracture += partial[b].fracture;
-    state.dissipation.friction += partial[b].friction;
-    state.dissipation.made += partial[b].made;
-    state.dissipation.inserted += partial[b].inserted;
-    state.dissipation.path += partial[b].path;
-    newly_broken_.insert(newly_broken_.end(), broken[b].begin(), broken[b].end());
-  }
-  std::sort(newly_broken_.begin(), newly_broken_.end());
 }
 
 void Cohesive::cut(State& state, Index element) const {

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Softening of Evans and Marathe (1968), as fitted by Munjiza, Andrews and White (1999):
-//   z(D) = [1 − (a+b−1)/(a+b) exp(D (a + c b) / ((a+b)(1−a−b)))] [a (1−D) + b (1−D)^c]
-//   a = 0.63, b = 1.8, c = 6;  z(0) = 1, z(1) = 0, z'(0) = 0, ∫₀¹ z dD = 0.38630729474394
+// Softening of Evans and Marathe (1968), see evans_marathe.hpp.
 // Elastic branch: parabola. Softening length in Y-Geo: 3 G / f.
 #include "evans_marathe.hpp"
-
-#include <cmath>
 
 #include "crackle/cohesive/law.hpp"
 
 namespace crackle {
-
-double evans_marathe_softening(double damage) {
-  constexpr double a = 0.63, b = 1.8, c = 6.0;
-  const double left = 1.0 - damage;
-  const double cube = left * left * left;
-  return (1.0 - (a + b - 1.0) / (a + b) * std::exp(damage * (a + c * b) / ((a + b) * (1.0 - a - b)))) *
-         (a * left + b * cube * cube);
-}
 
 namespace {
 

@@ -151,6 +151,24 @@ void CohesiveLaw::move(const CohesiveMaterial& m, double length, double opening,
   p.stored = stored + 0.5 * p.friction * p.friction / k_t;
 }
 
+void CohesiveLaw::move_lane(const ElementLanes& e, std::size_t lane, PointLanes& points) const {
+  CohesiveMaterial m = *e.material[lane];
+  m.tensile_strength = e.tensile_strength[lane];
+  m.cohesion = e.cohesion[lane];
+  m.fracture_energy_mode1 = e.fracture_energy_mode1[lane] + points.given[lane];
+  m.fracture_energy_mode2 = e.fracture_energy_mode2[lane] + points.given[lane];
+  m.penalty = e.penalty[lane];
+  m.tangential_penalty = e.tangential_penalty[lane];
+  CohesivePoint& p = *points.point[lane];
+  points.for_each_row([&](LaneRow& row, double CohesivePoint::*member) { p.*member = row[lane]; });
+  move(m, e.length[lane], points.opening[lane], points.slip[lane], p);
+  points.for_each_row([&](LaneRow& row, double CohesivePoint::*member) { row[lane] = p.*member; });
+}
+
+void CohesiveLaw::move(const ElementLanes& e, PointLanes& points) const {
+  for (std::size_t lane = 0; lane < e.used; ++lane) move_lane(e, lane, points);
+}
+
 RegisterLaw::RegisterLaw(std::shared_ptr<const CohesiveLaw> law) { registry().push_back(std::move(law)); }
 
 std::vector<std::shared_ptr<const CohesiveLaw>> registered_laws() {

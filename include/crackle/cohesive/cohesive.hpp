@@ -92,7 +92,6 @@ class Cohesive {
   }
 
  private:
-  void evaluate_active(State& state, CohesiveHistory& h, Dissipation& sum) const;
   static void begin_history(State& state, Index element);
   static void activate(State& state, Index element);
   void place_points(State& state, Index element) const;

@@ -46,6 +46,7 @@
 #include <string>
 #include <vector>
 
+#include "crackle/cohesive/lanes.hpp"
 #include "crackle/state/bedding.hpp"
 #include "crackle/state/state.hpp"
 
@@ -95,6 +96,10 @@ class CohesiveLaw {
   /// @param length of the edge in the reference state [m]
   virtual void move(const CohesiveMaterial& material, double length, double opening, double slip,
                     CohesivePoint& point) const;
+  /// The same of one point of some elements: the same bits.
+  virtual void move(const ElementLanes& elements, PointLanes& points) const;
+  /// Of one of those elements.
+  void move_lane(const ElementLanes& elements, std::size_t lane, PointLanes& points) const;
 
   /// Opening [m] at which an intact edge bears the normal traction, and slip at which it bears the
   /// shear traction [Pa]. @param normal, shear within the strength

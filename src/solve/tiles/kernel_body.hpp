@@ -109,8 +109,10 @@ class Fetch {
   const char* at_;
 };
 
+// The work by value: what is stored cannot change it, so it is read once.
 template <bool viscous, bool screened>
-CRACKLE_INLINE void rock_groups(const RockWork& w) {
+CRACKLE_INLINE void rock_groups(const RockWork w) {
+  const double third = w.weight / 3.0;
   V power[parts] = {};
   for (int part = 0; viscous && part < parts; ++part) power[part] = row(w.power + width * part);
   Fetch fetch(w.ahead);
@@ -151,7 +153,7 @@ CRACKLE_INLINE void rock_groups(const RockWork& w) {
       s = {s.xx + viscosity * rate.xx, s.yy + viscosity * rate.yy, s.xy + viscosity * rate.xy};
     }
     const auto f = triangle::forces(h, s, shape, area);
-    const V weight = (w.weight / 3.0) * area;
+    const V weight = third * area;
     const Spread f0(-f.x1 - f.x2, -f.y1 - f.y2 + weight), f1(f.x1, f.y1 + weight), f2(f.x2, f.y2 + weight);
 #pragma GCC unroll 8
     for (int l = 0; l < width; ++l) {

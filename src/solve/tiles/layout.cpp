@@ -299,10 +299,12 @@ void Tiles::link(const State& state, Index i) {
   tile.part.clear();
   std::vector<Index> in;
   for_shared(tile, [&](Index node) {
+    Index last = i;
+    for_tiles_at(state, node, [&](Index other) { last = std::max(last, other); });
+    if (last != i) return;
     in.clear();
     for_tiles_at(state, node, [&](Index other) { in.push_back(other); });
     sort_out(in);
-    if (in.back() != i) return;
     tile.owned.push_back(node);
     tile.from.push_back(in.front());
     tile.parts.push_back(static_cast<std::uint16_t>(in.size()));
@@ -312,6 +314,20 @@ void Tiles::link(const State& state, Index i) {
       tile.part.push_back(&from.partial[at(static_cast<Index>(it - from.shared.begin()))]);
     }
   });
+}
+
+// Arrays that have grown lie elsewhere, and in small pages.
+void Tiles::look_after_pages(const State& state) {
+  const auto whole = [](const auto& v) { return std::as_bytes(std::span(v.data(), v.capacity())); };
+  const CohesiveElements& c = state.cohesive;
+  const std::vector arrays{whole(state.displacement), whole(state.velocity), whole(state.inverse_mass),
+                           whole(c.histories),        whole(c.nodes),        whole(c.direction),
+                           whole(c.offset),           whole(c.force)};
+  std::vector<const void*> places;
+  for (const auto array : arrays) places.push_back(array.data());
+  if (places == grown_) return;
+  grown_ = std::move(places);
+  use_large_pages(arrays);
 }
 
 void Tiles::triangles_changed(const State& state, const Physics& physics, std::span<const Index> triangles) {
@@ -326,6 +342,7 @@ void Tiles::elements_changed(const State& state, const Physics& physics, std::sp
   for (const Index element : elements) changed.push_back(tile_of_element(state, element));
   sort_out(changed);
   for (const Index i : changed) list_elements(state, physics.cohesive, i);
+  look_after_pages(state);
 }
 
 void Tiles::inserted(const State& state, const Physics& physics, std::span<const Index> edges) {
@@ -337,12 +354,12 @@ void Tiles::inserted(const State& state, const Physics& physics, std::span<const
   }
   sort_out(changed);
   // Tiles that own a node with a part in one of these, before or after, are linked anew.
-  std::vector<Index> linked;
+  std::vector<char> linked(tiles_.size(), 0);
   const auto note_sharers = [&](Index i) {
     const Tile& tile = tiles_[at(i)];
     for_shared(tile,
-               [&](Index node) { for_tiles_at(state, node, [&](Index other) { linked.push_back(other); }); });
-    linked.push_back(i);
+               [&](Index node) { for_tiles_at(state, node, [&](Index other) { linked[at(other)] = 1; }); });
+    linked[at(i)] = 1;
   };
   for (const Index i : changed) {
     note_sharers(i);
@@ -351,8 +368,10 @@ void Tiles::inserted(const State& state, const Physics& physics, std::span<const
     list_elements(state, physics.cohesive, i);
     note_sharers(i);
   }
-  sort_out(linked);
-  for (const Index i : linked) link(state, i);
+  for (std::size_t i = 0; i < linked.size(); ++i) {
+    if (linked[i]) link(state, static_cast<Index>(i));
+  }
+  look_after_pages(state);
 }
 
 }  // namespace crackle
