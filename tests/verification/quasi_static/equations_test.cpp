@@ -55,9 +55,9 @@ TEST(QuasiStaticEquations, FullResidual) {
   for (std::size_t c = 0; c < state.cells.size(); ++c) {
     const PathEdge& edge = stage.path().edges()[c];
     const InterfaceLaw law(s.law,
-                           resolved_strength(s.tensile_strength, plane_strain_modulus(s.stiffness),
-                                             s.fracture_energy, edge.length, s.edges_per_zone),
-                           s.fracture_energy, s.closure);
+                           resolved_strength(s.cohesive.tensile_strength, plane_strain_modulus(s.stiffness),
+                                             s.cohesive.fracture_energy_mode1, edge.length, s.edges_per_zone),
+                           s.cohesive.fracture_energy_mode1, s.closure);
     const FractureCell cell = stage.cells()[c];
     for (std::size_t i = 0; i < 2; ++i) {
       const double history = c < before.cells.size() ? before.cells[c].points[i].max_opening : 0.0;

@@ -21,12 +21,13 @@ QuasiStaticScene scene_on(std::shared_ptr<const Mesh> mesh, Sym2 stress) {
   QuasiStaticScene s;
   s.mesh = std::move(mesh);
   s.slip = true;
+  s.cohesive.tan_residual = 0.6;
   s.stiffness = isotropic_plane_strain(young, poisson);
   s.pore_pressure = pore;
   s.stress = stress;
   s.law = find_law("linear");
-  s.fracture_energy = toughness * toughness / modulus;
-  s.tensile_strength = 10e6;
+  s.cohesive.fracture_energy_mode1 = toughness * toughness / modulus;
+  s.cohesive.tensile_strength = 10e6;
   s.closure.residual_aperture = 1e-5;
   s.fluid.viscosity = 1e-6;
   s.fluid.cavitation_pressure = 0.0;
@@ -220,7 +221,10 @@ struct Met {
 // A joint across the way at x = 2 m, 8 m long.
 Met meet_joint(double along, double friction) {
   QuasiStaticScene s = square(16.0, 0.5, {along, -9.44e6, 0.0});
-  for (const Index edge : edges_along(*s.mesh, {2.0, -4.0}, {2.0, 4.0})) s.joints.push_back({edge, friction});
+  for (const Index edge : edges_along(*s.mesh, {2.0, -4.0}, {2.0, 4.0})) s.joints.push_back({edge, 1, false});
+  std::ranges::sort(s.joints, {}, &JointEdge::edge);
+  s.joint_materials = {s.cohesive};
+  s.joint_materials[0].tan_residual = friction;
   s.wings = {free_wing(s, {0.0, 0.0}, {1.0, 0.0}), free_wing(s, {0.0, 0.0}, {-1.0, 0.0})};
   QuasiStatic stage(s);
   QuasiStaticRow last;
