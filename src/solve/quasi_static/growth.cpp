@@ -64,8 +64,10 @@ Sym2 mean_stress(const Equations& e, const State& state, const std::vector<Index
   return (1.0 / area) * sum;
 }
 
-// Unit vector across the largest principal stress, on the side of `forward`.
+// Unit vector across the largest principal stress, on the side of `forward`; that where it is the same all
+// round.
 Vec2 across_largest(const Sym2& s, Vec2 forward) {
+  if (std::hypot(0.5 * (s.xx - s.yy), s.xy) <= 1e-9 * std::abs(s.xx + s.yy)) return forward;
   const double angle = 0.5 * std::atan2(2.0 * s.xy, s.xx - s.yy);
   const Vec2 along{-std::sin(angle), std::cos(angle)};
   return dot(along, forward) < 0.0 ? -1.0 * along : along;

@@ -2,6 +2,7 @@
 #include "path_rock.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "crackle/solve/estimates.hpp"
 
@@ -9,6 +10,8 @@ namespace crackle::quasi_static {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr double least_shear = 0.25;  // β², below it the intact bond gives way to shear
 
 CohesiveMaterial material_of(const QuasiStaticScene& scene, const EdgeMaterials& materials, Index edge,
                              Vec2 normal) {
@@ -32,6 +35,10 @@ InterfaceLaw law_of(const QuasiStaticScene& scene, const EdgeMaterials& material
       resolved_strength(m.tensile_strength, modulus, m.fracture_energy_mode1, length, scene.edges_per_zone);
   ShearLaw shear;
   shear.friction = m.tan_residual;
+  // Opened with slip s = x w the bond of a joint dissipates G_I (1 + β² x²): to first order in x² what the
+  // linear criterion G_I/G_Ic + G_II/G_IIc = 1 asks for.
+  if (const JointEdge* joint = scene.joint_at(edge); joint != nullptr && joint->bonded)
+    shear.ratio = std::sqrt(std::max(1.0 - m.fracture_energy_mode1 / m.fracture_energy_mode2, least_shear));
   return {scene.law, strength, m.fracture_energy_mode1, scene.closure, shear};
 }
 
