@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "crackle/core/errors.hpp"
@@ -50,11 +51,24 @@ void set_straight_path(const Case& scene, QuasiStaticScene& s) {
 
 bool is_wall(const Edge& edge) { return edge.kind == EdgeKind::wellbore; }
 
-void hold_rim(QuasiStaticScene& s) {
-  s.held.assign(s.mesh->vertices.size(), 0);
-  for (const Edge& e : s.mesh->edges) {
-    if (e.kind == EdgeKind::outer) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
+// The outer boundary: all of it, or, where it is free, so much at its lower left and right that nothing
+// turns.
+void hold_rim(const Case& scene, QuasiStaticScene& s) {
+  const Mesh& mesh = *s.mesh;
+  s.held.assign(mesh.vertices.size(), 0);
+  std::vector<Index> outer;
+  for (const Edge& e : mesh.edges) {
+    if (e.kind == EdgeKind::outer) outer.insert(outer.end(), e.vertex.begin(), e.vertex.end());
   }
+  if (scene.boundary.outer == "free") {
+    const auto far = [&](Vec2 way) {
+      return *std::ranges::max_element(outer, {}, [&](Index v) { return dot(mesh.vertices[at(v)], way); });
+    };
+    s.held[at(far({-1.0, -1.0}))] = 3;
+    s.held[at(far({1.0, -1.0}))] = 2;
+    return;
+  }
+  for (const Index v : outer) s.held[at(v)] = 3;
 }
 
 // The vertex of the wellbore's wall that lies most in a direction.
@@ -74,7 +88,7 @@ Index on_wall(const Mesh& mesh, Vec2 direction) {
 
 // Two wings along x from the wall of the wellbore, on all of the domain.
 void set_straight_paths_of_wellbore(const Case& scene, QuasiStaticScene& s) {
-  hold_rim(s);
+  hold_rim(scene, s);
   const Mesh& mesh = *s.mesh;
   for (const double side : {1.0, -1.0}) {
     Wing wing;
@@ -110,6 +124,7 @@ void set_wings_of_wall(const Case& scene, QuasiStaticScene& s) {
     for (Index i = 0; i < mesh.edge_count(); ++i) {
       const Edge& e = mesh.edges[at(i)];
       if (is_wall(e) || (e.vertex[0] != wing.start && e.vertex[1] != wing.start)) continue;
+      if (const JointEdge* joint = s.joint_at(i); joint != nullptr && !joint->bonded) continue;
       const Vec2 way =
           mesh.vertices[at(e.vertex[e.vertex[0] == wing.start ? 1 : 0])] - mesh.vertices[at(wing.start)];
       const double aligned = side * dot(way, along) / norm(way);
@@ -177,17 +192,32 @@ GridLines grid_lines(const Case& scene) {
           {6.0 * m.size_fine, 0.5 * scene.domain.height, {m.size_fine, 1.1, m.size_coarse}}};
 }
 
-// On the whole domain, held at its rim: wings that choose their way, and joints.
-void set_free_path(const Case& scene, const std::vector<Index>& cracks, QuasiStaticScene& s) {
+// Cuts that the fluid of the well is not in are joints without cohesion, with the friction of the rock.
+void add_dry_notches(const std::vector<Index>& edges, QuasiStaticScene& s) {
+  if (edges.empty()) return;
+  s.joint_materials.push_back(s.cohesive);
+  const auto material = static_cast<std::uint16_t>(s.joint_materials.size());
+  for (const Index e : edges) s.joints.push_back({e, material, false});
+  std::ranges::sort(s.joints, {}, &JointEdge::edge);
+}
+
+// On the whole domain: wings that choose their way, and joints.
+void set_free_path(const Case& scene, const Scene& in_steps, QuasiStaticScene& s) {
   s.slip = true;
   require_quasi_static(std::ranges::any_of(s.mesh->edges, is_wall) == is_bored(scene), scene,
                        is_bored(scene)
                            ? "mesh.file has no curve \"wellbore_wall\", but there is a wellbore.diameter"
                            : "mesh.file has a wellbore: give wellbore.diameter");
-  hold_rim(s);
+  hold_rim(scene, s);
+  add_dry_notches(in_steps.dry_cracks, s);
   if (scene.fracture.notch == 0.0) return set_wings_of_wall(scene, s);
-  require_quasi_static(!cracks.empty(), scene, "fracture.notch is shorter than an edge of the mesh");
-  set_wings(scene, cracks, s);
+  std::vector<Index> notch;
+  std::ranges::set_difference(in_steps.cracks, in_steps.dry_cracks, std::back_inserter(notch));
+  require_quasi_static(!notch.empty(), scene,
+                       scene.mesh.file.empty()
+                           ? "fracture.notch is shorter than an edge of the mesh"
+                           : "mesh.file has no curve \"joint_notch\", the fracture.notch");
+  set_wings(scene, std::move(notch), s);
 }
 
 }  // namespace
@@ -284,7 +314,7 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
   } else if (is_straight(scene)) {
     set_straight_paths_of_wellbore(scene, s);
   } else {
-    set_free_path(scene, in_steps.cracks, s);
+    set_free_path(scene, in_steps, s);
   }
   return s;
 }

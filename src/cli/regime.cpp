@@ -28,6 +28,7 @@ std::string asymmetry(const Case& scene) {
   if (scene.stress.xy != 0.0) return "stress.xy is not 0";
   if (scene.stress_gradient != Sym2{}) return "the stress changes with depth";
   if (!scene.layers.empty()) return "there are layers";
+  if (!scene.notches.empty()) return "there are [[notches]]";
   if (!scene.mesh.file.empty()) return "it has a grid of its own, not mesh.file";
   return {};
 }
@@ -83,8 +84,13 @@ void check(const Case& scene) {
           "it starts from a fracture or the wall of a wellbore: give fracture.notch or wellbore.diameter");
   require(scene.fracture.notch == 0.0 || 2.0 * scene.fracture.notch > scene.wellbore.diameter,
           "fracture.notch counts from the origin: it has to end outside of the wellbore");
-  require(scene.notches.empty(), "[[notches]] are not yet taken, give fracture.notch");
-  require(scene.loads.empty(), "[[loads]] are not yet taken");
+  require(
+      std::ranges::none_of(scene.notches, [](const Case::Notch& n) { return n.fluid == "pumped"; }),
+      "the well pumps into fracture.notch or its own wall alone: give fracture.notch, or [[notches]] with "
+      "fluid = \"none\"");
+  require(scene.loads.empty(), "[[loads]] are not yet taken: give the in-situ stress in [stress]");
+  require(scene.boundary.outer != "absorbing",
+          "nothing moves that boundary.outer = \"absorbing\" could take: write \"fixed\" or \"free\"");
   require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&
               !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
           "strengths along the bedding are not yet taken");

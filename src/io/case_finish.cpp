@@ -155,7 +155,8 @@ void finish_loads(Case& scene, const GivenKeys& given) {
   if (scene.boundary.outer == "absorbing")
     fail(given.place("boundary.outer"), "boundary.outer = \"absorbing\" takes no [[loads]]");
   if (scene.run.regime == "quasi_static")
-    fail(given.place("run.regime"), "run.regime = \"quasi_static\" takes no [[loads]] yet");
+    fail(given.place("run.regime"),
+         "run.regime = \"quasi_static\": [[loads]] are not yet taken: give the in-situ stress in [stress]");
 }
 
 void resolve_mesh_file(Case& scene, const GivenKeys& given) {
