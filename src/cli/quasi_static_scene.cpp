@@ -392,6 +392,11 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
                     across * std::sqrt(matrix->permeability * matrix->porosity * matrix->compressibility /
                                        (M_PI * matrix->viscosity))));
   }
+  if (std::ranges::any_of(stage.joints, &JointEdge::bonded)) {
+    notes.emplace_back(
+        "note: joints that hold break by opening, where a fracture has come to them, and it follows them to "
+        "their end: not ahead of it, nor by sliding alone");
+  }
   if (scene.fluid.leak_off != "none")
     notes.push_back("note: stress from the fluid that leaks off (poroelastic) is left out");
   return notes;
