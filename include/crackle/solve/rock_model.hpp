@@ -54,7 +54,7 @@ struct RockModel : RockMass {
 };
 
 /// The rock between the fractures.
-Bulk bulk_of(const RockModel& rock, const Bulk::Damping& damping);
+Bulk bulk_of(const RockModel& scene, const Bulk::Damping& damping);
 
 /// Cohesive materials by their numbers: the rock's, those of joints, of layers, and of edges between two
 /// rocks, which have the lower of each strength and fracture energy.
@@ -65,6 +65,6 @@ struct EdgeMaterials {
     return of_edge.empty() ? std::uint16_t{0} : of_edge[static_cast<std::size_t>(edge)];
   }
 };
-EdgeMaterials edge_materials(const RockModel& rock);
+EdgeMaterials edge_materials(const RockModel& scene);
 
 }  // namespace crackle
