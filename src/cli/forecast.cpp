@@ -86,7 +86,7 @@ struct WholeRock {
   explicit WholeRock(const Scene& scene)
       : state(scene.law && !scene.insertion.on_demand ? make_split_state(scene.mesh)
                                                       : make_tied_state(scene.mesh)),
-        bulk(bulk_of(scene)) {
+        bulk(bulk_of(scene, scene.damping)) {
     set_mass(state, bulk);
     if (!scene.absorbing_boundary && !scene.free_boundary && scene.loads.empty())
       fix_nodes(state, EdgeKind::outer);

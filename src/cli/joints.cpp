@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/io/joints_csv.hpp"
@@ -55,7 +56,6 @@ JointSet random_set(const Case::JointSet& set, double wellbore_radius) {
 /// of the joints.
 std::vector<Case::Notch> notches_of(const Case& scene) {
   std::vector<Case::Notch> notches;
-  if (!scene.mesh.file.empty()) return notches;
   if (scene.fracture.notch > 0.0) {
     const Vec2 along = notch_direction(scene);
     const Vec2 from = (scene.fracture.offset - scene.fracture.notch) * along;
@@ -64,6 +64,17 @@ std::vector<Case::Notch> notches_of(const Case& scene) {
   }
   notches.insert(notches.end(), scene.notches.begin(), scene.notches.end());
   return notches;
+}
+
+/// Which of the notches a set of the mesh is. Sets are numbered and named as for properties_of().
+std::optional<std::size_t> notch_of(const Case& scene, const Mesh& mesh, std::size_t set,
+                                    std::size_t notches) {
+  if (scene.mesh.file.empty()) {
+    const std::size_t first = mesh.joint_sets.size() - notches;
+    return set < first ? std::nullopt : std::optional(set - first);
+  }
+  const bool named = mesh.joint_sets[set] == "notch" || mesh.joint_sets[set] == "notch1";
+  return named && notches > 0 ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
 std::string interface_name(std::size_t layer) { return fmt::format("layer{}", layer + 1); }
@@ -127,12 +138,13 @@ void set_joints(const Case& scene, Scene& solver_scene) {
   const Mesh& mesh = *solver_scene.mesh;
   std::vector<bool> bonded;
   const std::vector<Case::Notch> notches = notches_of(scene);
-  const std::size_t joint_sets = mesh.joint_sets.size() - notches.size();
-  for (std::size_t set = 0; set < joint_sets; ++set) {
-    const Case::JointProperties& joint = properties_of(scene, mesh, set);
-    bonded.push_back(joint.law == "bonded");
+  for (std::size_t set = 0; set < mesh.joint_sets.size(); ++set) {
     CohesiveMaterial material = solver_scene.cohesive;
     solver_scene.joint_materials.push_back(material);
+    bonded.push_back(false);
+    if (notch_of(scene, mesh, set, notches.size())) continue;
+    const Case::JointProperties& joint = properties_of(scene, mesh, set);
+    bonded.back() = joint.law == "bonded";
     if (joint.law == "perfect") continue;  // no edge is of it
     material.penalty = *joint.normal_penalty;
     material.tangential_penalty = *joint.tangential_penalty;
@@ -151,9 +163,9 @@ void set_joints(const Case& scene, Scene& solver_scene) {
     const Edge& edge = mesh.edges[static_cast<std::size_t>(e)];
     if (edge.joint < 0 || edge.kind != EdgeKind::interior) continue;
     const auto set = static_cast<std::size_t>(mesh.set_of_joint[static_cast<std::size_t>(edge.joint)]);
-    if (set >= joint_sets) {
+    if (const auto notch = notch_of(scene, mesh, set, notches.size())) {
       solver_scene.cracks.push_back(e);
-      if (notches[set - joint_sets].fluid == "none") solver_scene.dry_cracks.push_back(e);
+      if (notches[*notch].fluid == "none") solver_scene.dry_cracks.push_back(e);
       continue;
     }
     solver_scene.joints.push_back({e, static_cast<std::uint16_t>(set + 1), bonded[set]});

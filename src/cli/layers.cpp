@@ -118,6 +118,22 @@ void set_layers(const Case& scene, Scene& s) {
   if (s.mesh) s.layer_of_triangle = layers_of(scene, *s.mesh);
 }
 
+const Case::Layer* layer_at_well(const Case& scene) {
+  const auto found =
+      std::ranges::find_if(scene.layers, [](const Case::Layer& layer) { return Band(layer).holds({}); });
+  return found == scene.layers.end() ? nullptr : &*found;
+}
+
+const Case::Rock& rock_at_well(const Case& scene) {
+  const Case::Layer* layer = layer_at_well(scene);
+  return layer == nullptr ? scene.rock : layer->rock;
+}
+
+const Sym2& stress_at_well(const Case& scene) {
+  const Case::Layer* layer = layer_at_well(scene);
+  return layer == nullptr ? scene.stress : layer->stress;
+}
+
 std::string layers_text(const Case& scene, const Mesh& mesh) {
   if (scene.layers.empty()) return {};
   const std::vector<std::uint16_t> layer_of = layers_of(scene, mesh);

@@ -32,6 +32,12 @@ std::vector<std::uint16_t> layers_of(const Case& scene, const Mesh& mesh);
 /// Gives the layers of a case to its scene, whose own rock is set already.
 void set_layers(const Case& scene, Scene& solver_scene);
 
+/// The layer that the well, in the origin, is in; nullptr: none.
+const Case::Layer* layer_at_well(const Case& scene);
+/// Rock round the well, and the in-situ stress that it bears [Pa].
+const Case::Rock& rock_at_well(const Case& scene);
+const Sym2& stress_at_well(const Case& scene);
+
 /// How many triangles each layer has, in lines.
 std::string layers_text(const Case& scene, const Mesh& mesh);
 

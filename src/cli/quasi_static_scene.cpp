@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "crackle/core/errors.hpp"
 #include "crackle/mesh/grid.hpp"
 #include "crackle/solve/estimates.hpp"
 #include "joints.hpp"
+#include "layers.hpp"
 #include "regime.hpp"
 #include "scene.hpp"
 
@@ -49,11 +51,24 @@ void set_straight_path(const Case& scene, QuasiStaticScene& s) {
 
 bool is_wall(const Edge& edge) { return edge.kind == EdgeKind::wellbore; }
 
-void hold_rim(QuasiStaticScene& s) {
-  s.held.assign(s.mesh->vertices.size(), 0);
-  for (const Edge& e : s.mesh->edges) {
-    if (e.kind == EdgeKind::outer) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
+// The outer boundary: all of it, or, where it is free, so much at its lower left and right that nothing
+// turns.
+void hold_rim(const Case& scene, QuasiStaticScene& s) {
+  const Mesh& mesh = *s.mesh;
+  s.held.assign(mesh.vertices.size(), 0);
+  std::vector<Index> outer;
+  for (const Edge& e : mesh.edges) {
+    if (e.kind == EdgeKind::outer) outer.insert(outer.end(), e.vertex.begin(), e.vertex.end());
   }
+  if (scene.boundary.outer == "free") {
+    const auto far = [&](Vec2 way) {
+      return *std::ranges::max_element(outer, {}, [&](Index v) { return dot(mesh.vertices[at(v)], way); });
+    };
+    s.held[at(far({-1.0, -1.0}))] = 3;
+    s.held[at(far({1.0, -1.0}))] = 2;
+    return;
+  }
+  for (const Index v : outer) s.held[at(v)] = 3;
 }
 
 // The vertex of the wellbore's wall that lies most in a direction.
@@ -73,7 +88,7 @@ Index on_wall(const Mesh& mesh, Vec2 direction) {
 
 // Two wings along x from the wall of the wellbore, on all of the domain.
 void set_straight_paths_of_wellbore(const Case& scene, QuasiStaticScene& s) {
-  hold_rim(s);
+  hold_rim(scene, s);
   const Mesh& mesh = *s.mesh;
   for (const double side : {1.0, -1.0}) {
     Wing wing;
@@ -93,7 +108,7 @@ void set_straight_paths_of_wellbore(const Case& scene, QuasiStaticScene& s) {
 // it is the same all round, at fracture.angle.
 void set_wings_of_wall(const Case& scene, QuasiStaticScene& s) {
   const Mesh& mesh = *s.mesh;
-  const Sym2& stress = scene.stress;
+  const Sym2& stress = stress_at_well(scene);
   const double difference = std::hypot(0.5 * (stress.xx - stress.yy), stress.xy);
   const double angle = 0.5 * std::atan2(-2.0 * stress.xy, stress.yy - stress.xx);
   const Vec2 along = difference > 1e-9 * std::abs(stress.xx + stress.yy)
@@ -109,6 +124,7 @@ void set_wings_of_wall(const Case& scene, QuasiStaticScene& s) {
     for (Index i = 0; i < mesh.edge_count(); ++i) {
       const Edge& e = mesh.edges[at(i)];
       if (is_wall(e) || (e.vertex[0] != wing.start && e.vertex[1] != wing.start)) continue;
+      if (const JointEdge* joint = s.joint_at(i); joint != nullptr && !joint->bonded) continue;
       const Vec2 way =
           mesh.vertices[at(e.vertex[e.vertex[0] == wing.start ? 1 : 0])] - mesh.vertices[at(wing.start)];
       const double aligned = side * dot(way, along) / norm(way);
@@ -176,19 +192,32 @@ GridLines grid_lines(const Case& scene) {
           {6.0 * m.size_fine, 0.5 * scene.domain.height, {m.size_fine, 1.1, m.size_coarse}}};
 }
 
-// On the whole domain, held at its rim: wings that choose their way, and joints.
-void set_free_path(const Case& scene, QuasiStaticScene& s) {
-  const Scene rock = make_scene(scene, s.mesh);
+// Cuts that the fluid of the well is not in are joints without cohesion, with the friction of the rock.
+void add_dry_notches(const std::vector<Index>& edges, QuasiStaticScene& s) {
+  if (edges.empty()) return;
+  s.joint_materials.push_back(s.cohesive);
+  const auto material = static_cast<std::uint16_t>(s.joint_materials.size());
+  for (const Index e : edges) s.joints.push_back({e, material, false});
+  std::ranges::sort(s.joints, {}, &JointEdge::edge);
+}
+
+// On the whole domain: wings that choose their way, and joints.
+void set_free_path(const Case& scene, const Scene& in_steps, QuasiStaticScene& s) {
   s.slip = true;
-  s.shear.friction = rock.cohesive.tan_residual;
-  hold_rim(s);
-  for (const JointEdge& joint : rock.joints) {
-    require_quasi_static(!joint.bonded, scene, "bonded joints are not yet taken");
-    s.joints.push_back({joint.edge, rock.joint_materials[joint.material - 1U].tan_residual});
-  }
+  require_quasi_static(std::ranges::any_of(s.mesh->edges, is_wall) == is_bored(scene), scene,
+                       is_bored(scene)
+                           ? "mesh.file has no curve \"wellbore_wall\", but there is a wellbore.diameter"
+                           : "mesh.file has a wellbore: give wellbore.diameter");
+  hold_rim(scene, s);
+  add_dry_notches(in_steps.dry_cracks, s);
   if (scene.fracture.notch == 0.0) return set_wings_of_wall(scene, s);
-  require_quasi_static(!rock.cracks.empty(), scene, "fracture.notch is shorter than an edge of the mesh");
-  set_wings(scene, rock.cracks, s);
+  std::vector<Index> notch;
+  std::ranges::set_difference(in_steps.cracks, in_steps.dry_cracks, std::back_inserter(notch));
+  require_quasi_static(!notch.empty(), scene,
+                       scene.mesh.file.empty()
+                           ? "fracture.notch is shorter than an edge of the mesh"
+                           : "mesh.file has no curve \"joint_notch\", the fracture.notch");
+  set_wings(scene, std::move(notch), s);
 }
 
 }  // namespace
@@ -228,23 +257,26 @@ Mesh make_quasi_static_mesh(const Case& scene, NetworkReport* network) {
 
 // Viscosity [Pa s] of K_m = 48, ten times that from which pressure is uniform.
 double viscosity_of_uniform_pressure(const Case& scene) {
-  const double modulus = plane_strain_modulus(rock_stiffness(scene.rock));
+  const Case::Rock& rock = rock_at_well(scene);
+  const double modulus = plane_strain_modulus(rock_stiffness(rock));
   double rate = 0.0;
   for (const Case::PumpStage& p : scene.fluid.pump) rate = std::max(rate, p.rate / scene.well.height);
-  const double k = toughness(modulus, scene.rock.fracture_energy_mode1);
+  const double k = toughness(modulus, rock.fracture_energy_mode1);
   constexpr double any = 1e-6;
   return any * std::pow(dimensionless_toughness(modulus, k, any, rate) / 48.0, 4);
 }
 
 QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<const Mesh> mesh) {
+  const Scene in_steps =
+      make_scene(scene, is_straight(scene) ? nullptr : mesh);  // a straight path has rock alone
   QuasiStaticScene s;
-  s.stiffness = rock_stiffness(scene.rock);
-  s.stress = scene.stress;
+  static_cast<RockModel&>(s) = in_steps;
+  s.triangle_stiffness.reset();  // that makes up for cohesive elements on all edges
+  for (RockMass& layer : s.layers) layer.triangle_stiffness.reset();
+  s.mesh = std::move(mesh);
   s.pore_pressure = scene.rock.pore_pressure;
   s.control.first = std::min(s.control.first, 1e-3 * scene.run.end_time);
   s.law = find_law(scene.cohesive.law);
-  s.tensile_strength = scene.rock.tensile_strength;
-  s.fracture_energy = scene.rock.fracture_energy_mode1;
   s.wetting = scene.fluid.wets == "tip"       ? Wetting::tip_pressure
               : scene.fluid.wets == "damaged" ? Wetting::damaged
                                               : Wetting::broken;
@@ -277,13 +309,12 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
     stages.push_back({stage.from, stage.to, stage.rate / wings});
   s.pump = Pump(std::move(stages));
 
-  s.mesh = std::move(mesh);
   if (on_half_grid(scene)) {
     set_straight_path(scene, s);
   } else if (is_straight(scene)) {
     set_straight_paths_of_wellbore(scene, s);
   } else {
-    set_free_path(scene, s);
+    set_free_path(scene, in_steps, s);
   }
   return s;
 }
@@ -298,12 +329,23 @@ std::string quasi_static_mesh_text(const Case& scene, const QuasiStaticScene& st
                       is_straight(scene) ? " along x" : ", free");
   for (const Wing& wing : stage.wings)
     text += fmt::format("; {} edges, {} of them open", wing.path.size(), wing.open);
-  if (!stage.joints.empty()) text += fmt::format("; {} edges of joints", stage.joints.size());
+  const auto bonded = std::ranges::count_if(stage.joints, &JointEdge::bonded);
+  if (!stage.joints.empty())
+    text += fmt::format("; {} edges of joints, {} of them bonded", stage.joints.size(), bonded);
+  if (const std::string layers = layers_text(scene, *stage.mesh); !layers.empty()) text += "; " + layers;
   return text;
 }
 
+// Of the first edge of the path [m].
+double first_edge(const QuasiStaticScene& stage) {
+  const auto& v = stage.mesh->edges[at(stage.wings.front().path.front())].vertex;
+  return norm(stage.mesh->vertices[at(v[1])] - stage.mesh->vertices[at(v[0])]);
+}
+
 std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStaticScene& stage) {
-  const double modulus = plane_strain_modulus(stage.stiffness), k = toughness(modulus, stage.fracture_energy);
+  const Case::Rock& rock = rock_at_well(scene);
+  const double modulus = plane_strain_modulus(rock_stiffness(rock)),
+               k = toughness(modulus, rock.fracture_energy_mode1);
   double rate = 0.0;
   for (const Case::PumpStage& p : scene.fluid.pump) rate = std::max(rate, p.rate / scene.well.height);
   const double mu = 12.0 * stage.fluid.viscosity;
@@ -316,20 +358,21 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
                     modulus * modulus * mu / (across * across * across)));
   }
   if (is_bored(scene) && scene.fracture.notch == 0.0) {
-    const Sym2& s = scene.stress;
+    const Sym2& s = stress_at_well(scene);
     const double mean = 0.5 * (s.xx + s.yy), half = std::hypot(0.5 * (s.xx - s.yy), s.xy);
     notes.push_back(
         fmt::format("the wall of the wellbore breaks from {:.2f} MPa (Hubbert-Willis)",
-                    1e-6 * (stage.tensile_strength - 2.0 * mean - 4.0 * half + stage.pore_pressure)));
+                    1e-6 * (rock.tensile_strength - 2.0 * mean - 4.0 * half + stage.pore_pressure)));
   }
-  const double strength = resolved_strength(stage.tensile_strength, modulus, stage.fracture_energy,
-                                            scene.mesh.size_fine, stage.edges_per_zone);
-  if (strength < stage.tensile_strength) {
+  const double edge = scene.mesh.file.empty() ? scene.mesh.size_fine : first_edge(stage);
+  const double strength = resolved_strength(rock.tensile_strength, modulus, rock.fracture_energy_mode1, edge,
+                                            stage.edges_per_zone);
+  if (strength < rock.tensile_strength) {
     notes.push_back(
         fmt::format("note: edges of {:.3g} m cannot resolve a tensile strength of {:.3g} MPa: it is taken as "
                     "{:.3g} MPa, at the "
                     "same fracture energy",
-                    scene.mesh.size_fine, 1e-6 * stage.tensile_strength, 1e-6 * strength));
+                    edge, 1e-6 * rock.tensile_strength, 1e-6 * strength));
   }
   const double reynolds = scene.fluid.density * rate / stage.fluid.viscosity;
   if (reynolds > 2300.0 && scene.fluid.flow != "uniform")
@@ -339,15 +382,20 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
     const double kp = 4.0 * std::sqrt(2.0 / M_PI) * k, cp = 2.0 * carter->coefficient;
     notes.push_back(fmt::format("time scale of the change from toughness to leak-off {:.2g} s",
                                 rate * rate * std::pow(kp, 4) / std::pow(modulus, 4) / std::pow(cp, 6)));
-  } else if (const auto* rock = std::get_if<MatrixRock>(&stage.leak_off)) {
-    const double depth = 2.0 * std::sqrt(rock->permeability * scene.run.end_time /
-                                         (rock->porosity * rock->compressibility * rock->viscosity));
+  } else if (const auto* matrix = std::get_if<MatrixRock>(&stage.leak_off)) {
+    const double depth = 2.0 * std::sqrt(matrix->permeability * scene.run.end_time /
+                                         (matrix->porosity * matrix->compressibility * matrix->viscosity));
     notes.push_back(
         fmt::format("diffusion {:.2g} m deep by the end; Carter's coefficient would be {:.3g} "
                     "m/s^0.5 at the closure stress",
                     depth,
-                    across * std::sqrt(rock->permeability * rock->porosity * rock->compressibility /
-                                       (M_PI * rock->viscosity))));
+                    across * std::sqrt(matrix->permeability * matrix->porosity * matrix->compressibility /
+                                       (M_PI * matrix->viscosity))));
+  }
+  if (std::ranges::any_of(stage.joints, &JointEdge::bonded)) {
+    notes.emplace_back(
+        "note: joints that hold break by opening, where a fracture has come to them, and it follows them to "
+        "their end: not ahead of it, nor by sliding alone");
   }
   if (scene.fluid.leak_off != "none")
     notes.push_back("note: stress from the fluid that leaks off (poroelastic) is left out");

@@ -9,6 +9,7 @@
 
 #include "crackle/core/errors.hpp"
 #include "crackle/solve/estimates.hpp"
+#include "layers.hpp"
 #include "scene.hpp"
 
 namespace crackle {
@@ -25,7 +26,23 @@ std::string asymmetry(const Case& scene) {
   if (scene.fracture.offset != 0.0) return "fracture.offset is not 0";
   if (!scene.joints.empty() || !scene.joint_sets.empty()) return "there are joints";
   if (scene.stress.xy != 0.0) return "stress.xy is not 0";
+  if (scene.stress_gradient != Sym2{}) return "the stress changes with depth";
+  if (!scene.layers.empty()) return "there are layers";
+  if (!scene.notches.empty()) return "there are [[notches]]";
+  if (!scene.mesh.file.empty()) return "it has a grid of its own, not mesh.file";
   return {};
+}
+
+// Of the domain [m]; 0: that of a mesh file that does not say, where it does not matter.
+double extent(const Case& scene) {
+  const double given = std::max(scene.domain.width, scene.domain.height);
+  if (given > 0.0 || scene.run.regime != "auto") return given;
+  const Mesh mesh = read_gmsh(scene.mesh.file);
+  const auto span = [&](double Vec2::*axis) {
+    const auto [low, high] = std::ranges::minmax(mesh.vertices, {}, axis);
+    return high.*axis - low.*axis;
+  };
+  return std::max(span(&Vec2::x), span(&Vec2::y));
 }
 
 struct Numbers {
@@ -37,17 +54,17 @@ struct Numbers {
 
 Numbers numbers_of(const Case& scene) {
   Numbers n;
-  const PlaneStiffness stiffness = rock_stiffness(scene.rock);
-  const WaveSpeeds waves = wave_speeds(stiffness, scene.rock.density);
+  const Case::Rock& rock = rock_at_well(scene);
+  const PlaneStiffness stiffness = rock_stiffness(rock);
+  const WaveSpeeds waves = wave_speeds(stiffness, rock.density);
   n.modulus = plane_strain_modulus(stiffness);
-  n.toughness = toughness(n.modulus, scene.rock.fracture_energy_mode1);
+  n.toughness = toughness(n.modulus, rock.fracture_energy_mode1);
   for (const Case::PumpStage& p : scene.fluid.pump) {
     n.rate = std::max(n.rate, p.rate / scene.well.height);
     n.volume += p.rate / scene.well.height * (std::min(p.to, scene.run.end_time) - p.from);
     if (p.rate > 0.0) n.pump_time = std::min(p.to, scene.run.end_time);
   }
-  const double across = std::max(scene.domain.width, scene.domain.height);
-  if (across > 0.0) n.wave_times = scene.run.end_time * waves.s / across;
+  if (const double across = extent(scene); across > 0.0) n.wave_times = scene.run.end_time * waves.s / across;
   if (const double start = first_half_length(scene); start > 0.0) {
     const double rayleigh = 0.92 * waves.s;
     n.speed =
@@ -67,10 +84,13 @@ void check(const Case& scene) {
           "it starts from a fracture or the wall of a wellbore: give fracture.notch or wellbore.diameter");
   require(scene.fracture.notch == 0.0 || 2.0 * scene.fracture.notch > scene.wellbore.diameter,
           "fracture.notch counts from the origin: it has to end outside of the wellbore");
-  require(scene.mesh.file.empty(), "meshes from a file are not yet taken");
-  require(scene.layers.empty(), "layers are not yet taken");
-  require(scene.notches.empty(), "[[notches]] are not yet taken, give fracture.notch");
-  require(scene.loads.empty(), "[[loads]] are not yet taken");
+  require(
+      std::ranges::none_of(scene.notches, [](const Case::Notch& n) { return n.fluid == "pumped"; }),
+      "the well pumps into fracture.notch or its own wall alone: give fracture.notch, or [[notches]] with "
+      "fluid = \"none\"");
+  require(scene.loads.empty(), "[[loads]] are not yet taken: give the in-situ stress in [stress]");
+  require(scene.boundary.outer != "absorbing",
+          "nothing moves that boundary.outer = \"absorbing\" could take: write \"fixed\" or \"free\"");
   require(!scene.rock.tensile_strength_bedding && !scene.rock.cohesion_bedding &&
               !scene.rock.fracture_energy_mode1_bedding && !scene.rock.fracture_energy_mode2_bedding,
           "strengths along the bedding are not yet taken");
@@ -79,7 +99,6 @@ void check(const Case& scene) {
   require(scene.fluid.viscosity > 0.0 || scene.fluid.flow == "auto" || scene.fluid.flow == "uniform",
           "fluid.flow = \"" + scene.fluid.flow + "\" needs a fluid.viscosity above 0");
   require(!scene.fluid.pump.empty(), "give a [[fluid.pump]]");
-  require(scene.stress_gradient == Sym2{}, "stress gradients are not yet taken");
   require(
       confinement(scene) >= 0.0,
       fmt::format("an effective tension of {:.3g} MPa across the fracture would drive it on without fluid",
@@ -143,7 +162,7 @@ double first_half_length(const Case& scene) {
 }
 
 double confinement(const Case& scene) {
-  const Sym2& s = scene.stress;
+  const Sym2& s = stress_at_well(scene);
   if (is_straight(scene)) return -s.yy;
   return -(0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy));
 }

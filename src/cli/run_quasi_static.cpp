@@ -15,6 +15,7 @@
 #include "crackle/core/errors.hpp"
 #include "crackle/core/version.hpp"
 #include "forecast.hpp"
+#include "frames.hpp"
 #include "joints.hpp"
 #include "progress.hpp"
 #include "quasi_static_scene.hpp"
@@ -93,6 +94,8 @@ FieldFrame field_frame(const QuasiStatic& stage, const std::vector<std::string>&
   if (wanted("displacement_m")) frame.point_fields.push_back(std::move(displacement));
   if (wanted("stress_Pa")) frame.cell_fields.push_back(std::move(stress));
   if (wanted("region")) frame.cell_fields.push_back(std::move(region));
+  const std::vector<std::uint16_t>& layers = stage.scene().layer_of_triangle;
+  if (wanted("layer") && !layers.empty()) frame.cell_fields.push_back(layer_field(layers));
   return frame;
 }
 

@@ -74,10 +74,7 @@ void check_mesh(const Case& scene, const GivenKeys& given) {
 void check_notch(const Case& scene, const GivenKeys& given) {
   const double notch = scene.fracture.notch;
   if (notch <= 0.0) return;
-  if (!scene.mesh.file.empty()) {
-    fail(given.latest({"fracture.notch", "mesh.file"}),
-         "fracture.notch cannot be cut into mesh.file: give a mesh.generator");
-  }
+  if (!scene.mesh.file.empty()) return;  // a curve of it
   const double reach = notch + std::abs(scene.fracture.offset);
   const double x = std::abs(std::cos(scene.fracture.angle)) * reach;
   const double y = std::abs(std::sin(scene.fracture.angle)) * reach;
@@ -158,7 +155,8 @@ void finish_loads(Case& scene, const GivenKeys& given) {
   if (scene.boundary.outer == "absorbing")
     fail(given.place("boundary.outer"), "boundary.outer = \"absorbing\" takes no [[loads]]");
   if (scene.run.regime == "quasi_static")
-    fail(given.place("run.regime"), "run.regime = \"quasi_static\" takes no [[loads]] yet");
+    fail(given.place("run.regime"),
+         "run.regime = \"quasi_static\": [[loads]] are not yet taken: give the in-situ stress in [stress]");
 }
 
 void resolve_mesh_file(Case& scene, const GivenKeys& given) {

@@ -329,7 +329,7 @@ std::vector<TableSpec> make_tables() {
       number("breakdown_pressure", slot<&C::well, &C::Well::breakdown_pressure>(), pressure, any, Need::never, "the fracture is shut off from the well until it is reached", "none: open from the start"),
     }},
     {"fracture", {
-      number("notch", slot<&C::fracture, &C::Fracture::notch>(), length, not_negative, Need::never, "half-length broken at first, with fluid in it, from the origin; 0: none"),
+      number("notch", slot<&C::fracture, &C::Fracture::notch>(), length, not_negative, Need::never, "half-length broken at first, with fluid in it, from the origin; 0: none; with mesh.file the length of its curve \"joint_notch\""),
       number("angle", slot<&C::fracture, &C::Fracture::angle>(), angle, any, Need::never, "from x to the notch, anticlockwise"),
       number("offset", slot<&C::fracture, &C::Fracture::offset>(), length, any, Need::never, "of the notch's middle from the origin, along it: the well is in the origin, so that wings differ"),
       choice("path", slot<&C::fracture, &C::Fracture::path>(), {"auto", "straight", "free"}, "in the quasi-static regime: \"straight\", along x, on half of the domain without a wellbore; \"free\", edges chosen by the stress at the tips, joints met; \"auto\": straight where the case is symmetric to both axes"),

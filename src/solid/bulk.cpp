@@ -242,6 +242,16 @@ Sym2 Bulk::stress(const State& state, Index triangle) const {
   return {(ax * fxx + ay * fxy) / j, (bx * fyx + by * fyy) / j, (ax * fyx + ay * fyy) / j};
 }
 
+Sym2 Bulk::small_stress(Index triangle, const std::array<Vec2, 3>& corners) const {
+  const auto g = shape_gradients(triangle);
+  Sym2 strain;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 u = corners[i];
+    strain = strain + Sym2{u.x * g[i].x, u.y * g[i].y, 0.5 * (u.x * g[i].y + u.y * g[i].x)};
+  }
+  return in_situ(triangle) + stiffness(triangle).stress(strain);
+}
+
 double Bulk::area_ratio(const State& state, Index triangle) const {
   const Index* n = &state.node_of_corner[at(3 * triangle)];
   const Gradient<double> h = gradient(inverse_shape_[at(triangle)], state.displacement[at(n[0])],

@@ -26,7 +26,12 @@ CohesiveMaterial weaker(const CohesiveMaterial& a, const CohesiveMaterial& b) {
 
 }  // namespace
 
-Bulk bulk_of(const Scene& scene) {
+const JointEdge* RockModel::joint_at(Index edge) const {
+  const auto found = std::ranges::lower_bound(joints, edge, {}, &JointEdge::edge);
+  return found != joints.end() && found->edge == edge ? &*found : nullptr;
+}
+
+Bulk bulk_of(const RockModel& scene, const Bulk::Damping& damping) {
   std::vector<BulkMaterial> materials;
   for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
     const RockMass& rock = scene.rock(layer);
@@ -34,10 +39,10 @@ Bulk bulk_of(const Scene& scene) {
                          rock.density,
                          {rock.stress, rock.stress_gradient}});
   }
-  return {*scene.mesh, std::move(materials), scene.layer_of_triangle, scene.damping};
+  return {*scene.mesh, std::move(materials), scene.layer_of_triangle, damping};
 }
 
-EdgeMaterials edge_materials(const Scene& scene) {
+EdgeMaterials edge_materials(const RockModel& scene) {
   EdgeMaterials m;
   m.all.push_back(scene.cohesive);
   m.all.insert(m.all.end(), scene.joint_materials.begin(), scene.joint_materials.end());

@@ -31,7 +31,7 @@ double Simulation::longest_joint_edge(const Mesh& mesh) {
 }
 
 Simulation::Simulation(Scene scene)
-    : scene_(std::move(scene)), materials_(edge_materials(scene_)), bulk_(bulk_of(scene_)) {
+    : scene_(std::move(scene)), materials_(edge_materials(scene_)), bulk_(bulk_of(scene_, scene_.damping)) {
   // First, while there is little else in memory: the factorisation is the largest thing of all.
   const std::vector<Vec2> displacement = geostatic_displacement();
   const bool split = scene_.law && !scene_.insertion.on_demand;
@@ -90,7 +90,7 @@ Simulation::Simulation(Scene scene, State state, SimulationMemory memory)
     : scene_(std::move(scene)),
       materials_(edge_materials(scene_)),
       state_(std::move(state)),
-      bulk_(bulk_of(scene_)),
+      bulk_(bulk_of(scene_, scene_.damping)),
       stable_(memory.stable),
       stressed_(std::move(memory.stressed)),
       slowed_(memory.slowed),

@@ -67,6 +67,13 @@ TEST_F(Kill, InFieldTime) {
                   12);
 }
 
+TEST_F(Kill, InFieldTimeInLayers) {
+  kill_and_resume("field time, layers and veins",
+                  {std::string(CRACKLE_SOURCE_DIR) + "/cases/free_paths/smoke_layers.toml", "--set",
+                   "output.checkpoint_every=2 ms"},
+                  6);
+}
+
 TEST_F(Kill, LoadedNotchedBeam) {
   kill_and_resume("loaded beam",
                   {std::string(CRACKLE_SOURCE_DIR) + "/cases/three_point_bending/smoke.toml", "--set",

@@ -94,6 +94,10 @@ class Bulk {
   double strain_energy(const State& state, Index triangle) const;
   /// In-situ stress of a triangle [Pa].
   Sym2 in_situ(Index triangle) const { return in_situ_[static_cast<std::size_t>(triangle)]; }
+  /// Where it is another one than the rock's, as in rocks that have come to equilibrium with one another.
+  void set_in_situ(Index triangle, const Sym2& stress) {
+    in_situ_[static_cast<std::size_t>(triangle)] = stress;
+  }
   /// Share of a triangle's weight that each of its corners bears, along y [N/m].
   double corner_weight(Index triangle) const {
     return weight(triangle) * area_[static_cast<std::size_t>(triangle)] / 3.0;
@@ -105,6 +109,9 @@ class Bulk {
 
   /// Cauchy stress in a triangle [Pa], without its viscous part.
   Sym2 stress(const State& state, Index triangle) const;
+
+  /// Stress [Pa] with small displacements of its corners [m]: linear, without rotation.
+  Sym2 small_stress(Index triangle, const std::array<Vec2, 3>& corners) const;
 
   /// Area of a triangle now over its reference area; at or below zero it is turned inside out.
   double area_ratio(const State& state, Index triangle) const;

@@ -29,6 +29,9 @@ class Condensation {
   Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, const Held& held);
   ~Condensation();
 
+  /// Displacement [m] of all vertices of the intact rock by forces [N/m].
+  std::vector<Vec2> respond(const std::vector<PointLoad>& forces) const;
+
   /// Adds a load on the rock; before any unknown is followed. Loads are numbered as they come.
   void add_load(std::vector<PointLoad> forces);
 
@@ -54,6 +57,7 @@ class Condensation {
     std::vector<std::pair<Index, double>> force;  // on the intact mesh's unknowns
   };
   void append(const JumpUnknown& unknown);
+  std::vector<Vec2> by_vertex(const double* unknowns) const;
   double overlap(const JumpUnknown& a, const JumpUnknown& b) const;  // K_jj
 
   std::shared_ptr<const Mesh> mesh_;

@@ -67,6 +67,8 @@ class FracturePath {
   bool holds(Index edge) const { return on_path_[static_cast<std::size_t>(edge)] != 0; }
   /// Triangles round a vertex.
   std::vector<Index> fan(Index vertex) const;
+  /// Mesh edges that end at a vertex.
+  std::vector<Index> mesh_edges_at(Index vertex) const;
 
  private:
   std::vector<std::vector<Index>> sectors(Index vertex) const;

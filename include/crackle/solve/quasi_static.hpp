@@ -8,10 +8,14 @@
 // A cell is an edge of the path. The fracture grows by an edge where the opening at its tip passes the
 // elastic one; this is iterated within the step. Tension positive; volumes at reference density, per
 // metre of thickness.
-// Faces open, and on general paths slip. A tip chooses its next edge by the stress round it; joints take part
-// from the beginning, with friction, and take fluid where a fracture meets them. Where the mesh has a
-// wellbore its excavation and the pressure of the well load the rock, and its fluid is part of the well's.
-// Limits: elastic rock, no stress from fluid that leaks off, no inertia; joints do not grow at their ends.
+// Faces open, and on general paths slip. A tip chooses its next edge by the stress round it; joints without
+// cohesion take part from the beginning, with friction, and take fluid where a fracture meets them. Where it
+// meets one that holds, the joint's edges stand as tips beside its own, each with its own bond: what opens
+// first goes on. Where the mesh has a wellbore its excavation and the pressure of the well load the rock, and
+// its fluid is part of the well's. Layers have stiffness, stress and strength of their own.
+// Limits: elastic rock, no stress from fluid that leaks off, no inertia; joints without cohesion do not grow
+// at their ends, those that hold break only where a fracture has come to them, by opening, and a fracture
+// that has turned into one follows it to its end.
 #pragma once
 
 #include <functional>
@@ -26,9 +30,9 @@
 #include "crackle/fluid/leak_off.hpp"
 #include "crackle/fluid/pump.hpp"
 #include "crackle/fluid/well.hpp"
-#include "crackle/solid/stiffness.hpp"
 #include "crackle/solve/fracture_path.hpp"
 #include "crackle/solve/quasi_static_state.hpp"
+#include "crackle/solve/rock_model.hpp"
 
 namespace crackle {
 
@@ -51,12 +55,6 @@ struct Wing {
   bool free = false;
 };
 
-/// An edge of a joint without cohesion.
-struct PathJoint {
-  Index edge = -1;        ///< of the mesh
-  double friction = 0.6;  ///< coefficient [-]
-};
-
 struct TimeControl {
   double relative = 0.02;   ///< largest step over the time since the last change of the schedule [-]
   double growth = 1.25;     ///< of a step over the one before [-]
@@ -66,16 +64,14 @@ struct TimeControl {
   double energy = 3e-4;     ///< that the ledger of a step may miss, over what the step turns over [-]
 };
 
-struct QuasiStaticScene {
-  std::shared_ptr<const Mesh> mesh;
-  PlaneStiffness stiffness;
+/// Of the materials of its rock, joints and layers the stage takes tensile strength, fracture energy of
+/// opening and residual friction. Joints without cohesion are mated, full of fluid at pore pressure; the
+/// others are part of the rock until a fracture comes to them.
+struct QuasiStaticScene : RockModel {
   Held held;                   ///< components held at zero displacement, per vertex
-  Sym2 stress;                 ///< in situ, effective [Pa]
   double pore_pressure = 0.0;  ///< in the dry rock; also that of the fluid at first [Pa]
   std::shared_ptr<const CohesiveLaw> law;
-  double tensile_strength = 0.0;  ///< [Pa]
-  double fracture_energy = 0.0;   ///< mode I [J/m2]
-  double edges_per_zone = 8.0;    ///< strength is lowered until E'G/f² is as many edges long
+  double edges_per_zone = 8.0;  ///< strength is lowered until E'G/f² is as many edges long
   Closure closure;
   FractureFluid fluid;
   std::variant<std::monostate, CarterLeakOff, MatrixRock> leak_off;
@@ -83,9 +79,7 @@ struct QuasiStaticScene {
   Pump pump;
   Wetting wetting = Wetting::tip_pressure;
   std::vector<Wing> wings;
-  bool slip = false;              ///< faces may slip: for any path that is no straight line of symmetry
-  ShearLaw shear;                 ///< of rock and its fractures
-  std::vector<PathJoint> joints;  ///< mated, full of fluid at pore pressure
+  bool slip = false;  ///< faces may slip: for any path that is no straight line of symmetry
   TimeControl control;
 };
 

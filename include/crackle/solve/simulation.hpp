@@ -15,6 +15,7 @@
 #include "crackle/solve/boundary.hpp"
 #include "crackle/solve/loads.hpp"
 #include "crackle/solve/ramp.hpp"
+#include "crackle/solve/rock_model.hpp"
 #include "crackle/solve/stopwatch.hpp"
 #include "crackle/solve/tiles.hpp"
 #include "crackle/solve/time_step.hpp"
@@ -43,29 +44,8 @@ struct DamageChoice {
   std::vector<CutTriangle> cut;            ///< ascending
 };
 
-/// An edge of a joint, there from the start: before the geostatic stage, in which it may slip.
-struct JointEdge {
-  Index edge = -1;             ///< of the mesh, between two triangles
-  std::uint16_t material = 1;  ///< number of its material: 1 is the first of Scene::joint_materials
-  bool bonded = false;         ///< breaks by its own strength; else closed, held by friction alone
-};
-
-/// A rock and its in-situ stress.
-struct RockMass {
-  PlaneStiffness stiffness;
-  std::optional<PlaneStiffness> triangle_stiffness;  ///< where it is not the rock's, see compensated()
-  double density = 0.0;                              ///< [kg/m3]
-  Sym2 stress;                                       ///< in situ, effective, at the origin [Pa]
-  Sym2 stress_gradient;                              ///< its change per metre of depth, −y; xy is 0 [Pa/m]
-  CohesiveMaterial cohesive;                         ///< of its cohesive elements
-};
-
-/// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive. Its own rock is what is
-/// not in a layer.
-struct Scene : RockMass {
-  std::shared_ptr<const Mesh> mesh;  ///< excavated
-  std::vector<RockMass> layers;
-  std::vector<std::uint16_t> layer_of_triangle;  ///< 0: none, 1: the first; empty: none anywhere
+/// What is simulated: rock, fractures, fluid, boundary. All in SI, tension positive.
+struct Scene : RockModel {
   Bulk::Damping damping;
   std::shared_ptr<const CohesiveLaw>
       law;  ///< nullptr: no cohesive elements; beside damage: on cracks and joints only, insertion on demand
@@ -77,9 +57,6 @@ struct Scene : RockMass {
   std::vector<Load> loads;          ///< on parts of it, where it is then not held; not with an absorbing one
   std::vector<Index> cracks;        ///< mesh edges broken from the start
   std::vector<Index> dry_cracks;    ///< those of them that the fluid is not in at first, ascending
-  std::vector<JointEdge> joints;    ///< ascending by edge
-  std::vector<CohesiveMaterial>
-      joint_materials;  ///< the strengths of one that is not bonded are not asked for
   bool joints_edge_by_edge =
       false;  ///< the fluid enters a joint's edges as they open; else a whole joint at once
   std::optional<CompressibleFluid> fluid;
@@ -95,32 +72,11 @@ struct Scene : RockMass {
   bool breaks() const { return law != nullptr || damage.law != nullptr; }
   /// The rock is whole and held, and a pump presses it: the elastic ramp may be found by static solves.
   bool may_ramp() const;
-  /// Of a layer by its number, as in layer_of_triangle.
-  const RockMass& rock(std::size_t layer) const {
-    if (layer == 0) return *this;
-    return layers[layer - 1];
-  }
-  const RockMass& rock_of(Index triangle) const {
-    return rock(layer_of_triangle.empty() ? 0 : layer_of_triangle[static_cast<std::size_t>(triangle)]);
-  }
 };
-
-/// The rock between the fractures of a scene.
-Bulk bulk_of(const Scene& scene);
 
 /// Lumps the mass of every triangle to its corners.
 void set_mass(State& state, const Bulk& bulk);
 
-/// Cohesive materials by their numbers: the rock's, those of joints, of layers, and of edges between two
-/// rocks, which have the lower of each strength and fracture energy.
-struct EdgeMaterials {
-  std::vector<CohesiveMaterial> all;
-  std::vector<std::uint16_t> of_edge;  ///< of the mesh, as far as no joint runs there; empty: all the rock's
-  std::uint16_t number(Index edge) const {
-    return of_edge.empty() ? std::uint16_t{0} : of_edge[static_cast<std::size_t>(edge)];
-  }
-};
-EdgeMaterials edge_materials(const Scene& scene);
 /// Gives elements on all edges their materials, joints those of theirs.
 void set_materials(State& state, const Scene& scene, const EdgeMaterials& materials);
 

@@ -13,13 +13,13 @@ Vec2 out_of_rock(const Mesh& mesh, const Edge& edge) {
   return right_normal(mesh.vertices[at(edge.vertex[1])] - mesh.vertices[at(edge.vertex[0])]);
 }
 
-template <class Traction>  // on the rock, by the outward normal
+template <class Traction>  // on the rock, by triangle and outward normal
 std::vector<PointLoad> on_the_wall(const Mesh& mesh, Traction&& traction) {
   std::vector<PointLoad> forces;
   for (const Edge& edge : mesh.edges) {
     if (edge.kind != EdgeKind::wellbore) continue;
     for (const Index v : edge.vertex)
-      forces.push_back({edge.triangle[0], v, 0.5 * traction(out_of_rock(mesh, edge))});
+      forces.push_back({edge.triangle[0], v, 0.5 * traction(edge.triangle[0], out_of_rock(mesh, edge))});
   }
   return forces;
 }
@@ -48,9 +48,9 @@ bool on_wall(const Mesh& mesh, Index vertex) {
   });
 }
 
-void load_wall(const QuasiStaticScene& scene, Condensation& rock) {
-  rock.add_load(on_the_wall(*scene.mesh, [&](Vec2 normal) { return -1.0 * (scene.stress * normal); }));
-  rock.add_load(on_the_wall(*scene.mesh, [](Vec2 normal) { return -1.0 * normal; }));
+void load_wall(const Mesh& mesh, const Bulk& bulk, Condensation& rock) {
+  rock.add_load(on_the_wall(mesh, [&](Index t, Vec2 normal) { return -1.0 * (bulk.in_situ(t) * normal); }));
+  rock.add_load(on_the_wall(mesh, [](Index, Vec2 normal) { return -1.0 * normal; }));
 }
 
 std::array<double, 2> wall_loads(const Equations& e, const State& state) {

@@ -18,7 +18,7 @@ double bore_volume(const Mesh& mesh);
 /// A vertex is on its wall.
 bool on_wall(const Mesh& mesh, Index vertex);
 /// Gives the rock the loads of its wall: excavation, and one Pa of pressure.
-void load_wall(const QuasiStaticScene& scene, Condensation& rock);
+void load_wall(const Mesh& mesh, const Bulk& bulk, Condensation& rock);
 
 /// How much of each load acts: 1 of excavation, the pressure of the well above that of the pores [Pa].
 std::array<double, 2> wall_loads(const Equations& equations, const State& state);

@@ -27,6 +27,9 @@ struct Condensation::Factor {
     Eigen::VectorXd force, response;  // on the intact mesh's unknowns
     std::vector<double> on_jumps;     // per column
   };
+  /// Forces on the intact mesh's unknowns.
+  Eigen::VectorXd sum(const std::vector<Index>& equation, const std::vector<PointLoad>& forces) const;
+
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   std::vector<Load> loads;
 };
@@ -67,14 +70,35 @@ Condensation::Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, c
         "static condensation: the stiffness matrix is singular; is the rock held by nothing?");
 }
 
-void Condensation::add_load(std::vector<PointLoad> forces) {
-  Factor::Load load{std::move(forces), Eigen::VectorXd::Zero(factor_->solver.rows()), {}, {}};
-  for (const PointLoad& corner : load.corners) {
+Eigen::VectorXd Condensation::Factor::sum(const std::vector<Index>& equation,
+                                          const std::vector<PointLoad>& forces) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(solver.rows());
+  for (const PointLoad& corner : forces) {
     for (std::size_t a = 0; a < 2; ++a) {
-      const Index row = equation_[2 * at(corner.vertex) + a];
-      if (row >= 0) load.force[row] += dot(corner.force, axis[a]);
+      const Index row = equation[2 * at(corner.vertex) + a];
+      if (row >= 0) all[row] += dot(corner.force, axis[a]);
     }
   }
+  return all;
+}
+
+std::vector<Vec2> Condensation::by_vertex(const double* unknowns) const {
+  std::vector<Vec2> result(mesh_->vertices.size());
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    const Index x = equation_[2 * v], y = equation_[2 * v + 1];
+    result[v] = {x < 0 ? 0.0 : unknowns[x], y < 0 ? 0.0 : unknowns[y]};
+  }
+  return result;
+}
+
+std::vector<Vec2> Condensation::respond(const std::vector<PointLoad>& forces) const {
+  const Eigen::VectorXd u = factor_->solver.solve(factor_->sum(equation_, forces));
+  return by_vertex(u.data());
+}
+
+void Condensation::add_load(std::vector<PointLoad> forces) {
+  Factor::Load load{std::move(forces), {}, {}, {}};
+  load.force = factor_->sum(equation_, load.corners);
   load.response = factor_->solver.solve(load.force);
   factor_->loads.push_back(std::move(load));
 }
@@ -156,12 +180,7 @@ std::vector<Vec2> Condensation::displacement(std::span<const double> jumps,
     for (const auto& [row, value] : columns_[k].force) force[row] -= value * jumps[k];
   }
   const Eigen::VectorXd u = factor_->solver.solve(force);
-  std::vector<Vec2> result(mesh_->vertices.size());
-  for (std::size_t v = 0; v < result.size(); ++v) {
-    const Index x = equation_[2 * v], y = equation_[2 * v + 1];
-    result[v] = {x < 0 ? 0.0 : u[x], y < 0 ? 0.0 : u[y]};
-  }
-  return result;
+  return by_vertex(u.data());
 }
 
 }  // namespace crackle

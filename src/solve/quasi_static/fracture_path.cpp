@@ -34,6 +34,18 @@ std::vector<Index> FracturePath::fan(Index vertex) const {
   return {triangles_.begin() + first_[at(vertex)], triangles_.begin() + first_[at(vertex) + 1]};
 }
 
+std::vector<Index> FracturePath::mesh_edges_at(Index vertex) const {
+  std::vector<Index> found;
+  for (const Index t : fan(vertex)) {
+    for (const Index e : mesh_->triangle_edges[at(t)]) {
+      const auto& ends = mesh_->edges[at(e)].vertex;
+      const bool known = std::find(found.begin(), found.end(), e) != found.end();
+      if (!known && (ends[0] == vertex || ends[1] == vertex)) found.push_back(e);
+    }
+  }
+  return found;
+}
+
 std::vector<Index> FracturePath::at_vertex(Index vertex) const {
   std::vector<Index> found;
   for (std::size_t e = 0; e < edges_.size(); ++e) {

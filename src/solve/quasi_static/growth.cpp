@@ -17,6 +17,8 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+constexpr double in_line = 0.985;  // cosine of 10 degrees
+
 // Displacement of a corner of a triangle, with the jumps [m].
 Vec2 corner(const Equations& e, const State& state, const std::vector<Vec2>& intact, Index t, Index v) {
   Vec2 d = intact[at(v)];
@@ -54,20 +56,18 @@ Sym2 mean_stress(const Equations& e, const State& state, const std::vector<Index
   Sym2 sum;
   double area = 0.0;
   for (const Index t : triangles) {
-    const auto g = e.bulk.shape_gradients(t);
-    Sym2 strain;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 d = corner(e, state, u, t, e.scene.mesh->triangles[at(t)][i]);
-      strain = strain + Sym2{d.x * g[i].x, d.y * g[i].y, 0.5 * (d.x * g[i].y + d.y * g[i].x)};
-    }
-    sum = sum + e.bulk.area(t) * (e.scene.stress + e.scene.stiffness.stress(strain));
+    std::array<Vec2, 3> d;
+    for (std::size_t i = 0; i < 3; ++i) d[i] = corner(e, state, u, t, e.scene.mesh->triangles[at(t)][i]);
+    sum = sum + e.bulk.area(t) * e.bulk.small_stress(t, d);
     area += e.bulk.area(t);
   }
   return (1.0 / area) * sum;
 }
 
-// Unit vector across the largest principal stress, on the side of `forward`.
+// Unit vector across the largest principal stress, on the side of `forward`; that where it is the same all
+// round.
 Vec2 across_largest(const Sym2& s, Vec2 forward) {
+  if (std::hypot(0.5 * (s.xx - s.yy), s.xy) <= 1e-9 * std::abs(s.xx + s.yy)) return forward;
   const double angle = 0.5 * std::atan2(2.0 * s.xy, s.xx - s.yy);
   const Vec2 along{-std::sin(angle), std::cos(angle)};
   return dot(along, forward) < 0.0 ? -1.0 * along : along;
@@ -79,6 +79,25 @@ double pressure_over_pores(const Equations& e, const State& state, std::size_t c
 }
 
 }  // namespace
+
+std::vector<Index> joints_met(const Equations& e, Index vertex) {
+  if (e.scene.joints.empty()) return {};
+  std::vector<Index> met = e.path.mesh_edges_at(vertex);
+  std::erase_if(met, [&](Index edge) { return e.path.holds(edge) || e.scene.joint_at(edge) == nullptr; });
+  return met;
+}
+
+NextEdge next_in_joint(const Equations& e, const Tip& tip) {
+  if (tip.cell < 0) return {};
+  const Mesh& mesh = *e.scene.mesh;
+  const PathEdge& from = e.path.edges()[at(tip.cell)];
+  const JointEdge* joint = e.scene.joint_at(from.edge);
+  if (joint == nullptr) return {};
+  for (const Index next : joints_met(e, from.vertex[1])) {
+    if (mesh.edges[at(next)].joint == mesh.edges[at(from.edge)].joint) return {next, {}};
+  }
+  return {};
+}
 
 NextEdge choose_edge(const Equations& e, const State& state, const Tip& tip) {
   const Mesh& mesh = *e.scene.mesh;
@@ -93,18 +112,15 @@ NextEdge choose_edge(const Equations& e, const State& state, const Tip& tip) {
   const Vec2 way = (1.0 / norm(goal - here)) * (goal - here);
   NextEdge best;
   double most = -0.17;  // turns by less than 100 degrees
-  for (const Index t : e.path.fan(from.vertex[1])) {
-    for (const Index candidate : mesh.triangle_edges[at(t)]) {
-      const Edge& edge = mesh.edges[at(candidate)];
-      if ((edge.vertex[0] != from.vertex[1] && edge.vertex[1] != from.vertex[1]) || e.path.holds(candidate) ||
-          edge.triangle[1] < 0)
-        continue;
-      const Vec2 end = mesh.vertices[at(edge.vertex[edge.vertex[0] == from.vertex[1] ? 1 : 0])];
-      const double length = norm(end - here), aligned = dot(end - here, way) / length;
-      if (aligned <= most) continue;
-      most = aligned;
-      best = {candidate, std::max(dot(end - tip.place, along), 0.2 * length) * along};
-    }
+  for (const Index candidate : e.path.mesh_edges_at(from.vertex[1])) {
+    const Edge& edge = mesh.edges[at(candidate)];
+    if (e.path.holds(candidate) || edge.triangle[1] < 0) continue;
+    const Vec2 end = mesh.vertices[at(edge.vertex[edge.vertex[0] == from.vertex[1] ? 1 : 0])];
+    const double length = norm(end - here), aligned = dot(end - here, way) / length;
+    const bool aside = e.scene.joint_at(candidate) != nullptr && dot(end - here, along) < in_line * length;
+    if (aligned <= most || aside) continue;
+    most = aligned;
+    best = {candidate, std::max(dot(end - tip.place, along), 0.2 * length) * along};
   }
   if (best.edge < 0) {
     throw NumericalError(

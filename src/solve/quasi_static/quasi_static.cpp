@@ -10,10 +10,10 @@
 
 #include "bore.hpp"
 #include "crackle/core/errors.hpp"
-#include "crackle/solve/estimates.hpp"
 #include "growth.hpp"
 #include "ledger.hpp"
 #include "newton.hpp"
+#include "path_rock.hpp"
 #include "record.hpp"
 
 namespace crackle {
@@ -39,8 +39,11 @@ void check(const QuasiStaticScene& scene) {
                 wing.open < wing.path.size() + (wing.free ? 1 : 0),
             "a wing needs an open edge, or to start at the wall of a wellbore, and an edge ahead of it");
   require(scene.slip || scene.joints.empty(), "joints slip: give slip");
-  require(scene.tensile_strength > 0.0 && scene.fracture_energy > 0.0,
-          "tensile strength and fracture energy have to be positive");
+  for (std::size_t layer = 0; layer <= scene.layers.size(); ++layer) {
+    const CohesiveMaterial& m = scene.rock(layer).cohesive;
+    require(m.tensile_strength > 0.0 && m.fracture_energy_mode1 > 0.0,
+            "tensile strength and fracture energy have to be positive");
+  }
   require(
       scene.edges_per_zone >= 2.0,
       "a strength that the mesh does not resolve stops the fracture: edges_per_zone has to be 2 at least");
@@ -57,18 +60,22 @@ class QuasiStatic::Solver {
  public:
   explicit Solver(QuasiStaticScene scene)
       : scene_((check(scene), std::move(scene))),
-        bulk_(*scene_.mesh, scene_.stiffness, 1.0, scene_.stress, {}),
+        materials_(edge_materials(scene_)),
+        bulk_(bulk_of(scene_, {})),
         path_(scene_.mesh, scene_.held, scene_.slip),
         rock_(scene_.mesh, bulk_, scene_.held),
         equations_{scene_, bulk_, path_, rock_, laws_, matrix_, qs::bore_volume(*scene_.mesh)} {
-    if (equations_.bore > 0.0) qs::load_wall(scene_, rock_);
+    if (equations_.bore > 0.0) qs::load_wall(*scene_.mesh, bulk_, rock_);
+    qs::balance_in_situ(scene_, rock_, bulk_);
     if (const auto* rock = std::get_if<MatrixRock>(&scene_.leak_off)) matrix_.emplace(*rock);
   }
 
   void begin() {
     state_.well_pressure = scene_.pore_pressure;
     state_.connected = !scene_.well.breakdown_pressure.has_value();
-    for (const PathJoint& joint : scene_.joints) add_joint(joint.edge);
+    for (const JointEdge& joint : scene_.joints) {
+      if (!joint.bonded) add_joint(joint.edge);
+    }
     for (std::size_t w = 0; w < scene_.wings.size(); ++w) start(static_cast<Index>(w));
     settle();
     state_.step = scene_.control.first;
@@ -120,7 +127,7 @@ class QuasiStatic::Solver {
   const qs::State& state() const { return state_; }
   const qs::Equations& equations() const { return equations_; }
   double strength() const {
-    double least = scene_.tensile_strength;
+    double least = scene_.cohesive.tensile_strength;
     for (const InterfaceLaw& law : laws_) least = std::min(least, law.strength());
     return least;
   }
@@ -131,22 +138,14 @@ class QuasiStatic::Solver {
     const bool joint = cell.parent == qs::of_joint;
     const Index c =
         path_.add(cell.edge, cell.inner, cell.parent, joint ? mated_aperture(cell.edge) : 0.0, cell.along);
-    laws_.emplace_back(
-        scene_.law,
-        resolved_strength(scene_.tensile_strength, plane_strain_modulus(scene_.stiffness),
-                          scene_.fracture_energy, path_.edges()[at(c)].length, scene_.edges_per_zone),
-        scene_.fracture_energy, scene_.closure,
-        ShearLaw{scene_.shear.ratio, joint ? friction_of(cell.edge) : scene_.shear.friction});
+    const PathEdge& edge = path_.edges()[at(c)];
+    laws_.push_back(qs::law_of(scene_, materials_, cell.edge, edge.normal, edge.length));
     return c;
-  }
-
-  double friction_of(Index joint_edge) const {
-    return std::ranges::find(scene_.joints, joint_edge, &PathJoint::edge)->friction;
   }
 
   // In-situ tractions across an edge and along it [Pa].
   void set_in_situ(qs::Cell& cell, const PathEdge& edge) const {
-    const Vec2 pull = scene_.stress * edge.normal;
+    const Vec2 pull = qs::in_situ_beside(*scene_.mesh, bulk_, edge.edge) * edge.normal;
     for (qs::Point& p : cell.points) {
       p.bond = p.in_situ = dot(edge.normal, pull);
       if (scene_.slip) p.bond_shear = p.in_situ_shear = dot(Vec2{-edge.normal.y, edge.normal.x}, pull);
@@ -157,7 +156,7 @@ class QuasiStatic::Solver {
     const auto& v = scene_.mesh->edges[at(mesh_edge)].vertex;
     const Vec2 along = scene_.mesh->vertices[at(v[1])] - scene_.mesh->vertices[at(v[0])];
     const Vec2 normal = (1.0 / norm(along)) * right_normal(along);
-    return scene_.closure.opening(-dot(normal, scene_.stress * normal));
+    return scene_.closure.opening(-dot(normal, qs::in_situ_beside(*scene_.mesh, bulk_, mesh_edge) * normal));
   }
 
   void add_joint(Index mesh_edge) {
@@ -192,17 +191,40 @@ class QuasiStatic::Solver {
     if (number < w.path.size()) {
       cell.edge = w.path[number];
     } else {
-      rock_.follow(path_.unknowns());
-      const qs::NextEdge next = qs::choose_edge(equations_, state, tip);
+      qs::NextEdge next = qs::next_in_joint(equations_, tip);
+      if (next.edge < 0) {
+        rock_.follow(path_.unknowns());
+        next = qs::choose_edge(equations_, state, tip);
+      }
       cell.edge = next.edge;
       cell.along = next.along;
     }
+    add_tip_cell(state, tip, cell);
+  }
+
+  // Makes a cell that is intact and dry the last one of `tip`.
+  void add_tip_cell(qs::State& state, qs::Tip& tip, qs::Cell cell) {
     tip.cell = join(cell);
     const PathEdge& edge = path_.edges()[at(tip.cell)];
     tip.place = norm(cell.along) > 0.0 ? tip.place + cell.along : scene_.mesh->vertices[at(edge.vertex[1])];
     set_in_situ(cell, edge);
     cell.pressure = scene_.pore_pressure;
     append(state, cell);
+  }
+
+  // Joints that hold leave the vertex that the last edge of a tip starts at: each of their edges there is a
+  // tip beside it.
+  void meet_joints(qs::State& state, qs::Tip tip) {
+    qs::Cell cell;
+    cell.inner = state.cells[at(tip.cell)].inner;
+    cell.parent = state.cells[at(tip.cell)].parent;
+    for (const Index edge : qs::joints_met(equations_, cell.inner)) {
+      cell.edge = edge;
+      qs::Tip arm{tip.wing, -1, {}};
+      add_tip_cell(state, arm, cell);
+      if (cell.parent < 0) state.inlets.push_back({arm.cell, 0.0});
+      state.tips.push_back(arm);
+    }
   }
 
   void start(Index wing) {
@@ -212,6 +234,7 @@ class QuasiStatic::Solver {
       const Index parent = tip.cell;
       extend(state_, tip, i);
       const Index c = tip.cell;
+      meet_joints(state_, tip);
       if (i == 0) state_.inlets.push_back({c, 0.0});
       if (i < w.open) {
         const double free = std::max(laws_[at(c)].broken_opening(), scene_.closure.residual_aperture);
@@ -269,15 +292,16 @@ class QuasiStatic::Solver {
 
   int advance(qs::State& trial, double dt, double rate) {
     int iterations = spent_ = 0;
-    std::vector<int> grown(trial.tips.size(), 0);
+    std::vector<int> grown;
     while (true) {
+      grown.resize(trial.tips.size(), 0);
       rock_.follow(path_.unknowns());
       const qs::NewtonResult result = qs::solve(equations_, trial, dt, rate);
       iterations += result.iterations;
       spent_ = iterations;
       if (!result.converged) return -1;
       bool changed = wet(trial);
-      for (std::size_t t = 0; t < trial.tips.size(); ++t) {
+      for (std::size_t t = 0; t < grown.size(); ++t) {
         if (!opens(trial, trial.tips[t])) continue;
         if (++grown[t] > scene_.control.edges_per_step) return -1;
         grow(trial, trial.tips[t]);
@@ -304,6 +328,7 @@ class QuasiStatic::Solver {
     }
     const std::size_t jumps = state.jumps.size();
     extend(state, tip, next);
+    meet_joints(state, tip);
     rock_.follow(path_.unknowns());
     qs::take_over(equations_, state, jumps);
   }
@@ -410,6 +435,7 @@ class QuasiStatic::Solver {
   }
 
   QuasiStaticScene scene_;
+  EdgeMaterials materials_;
   Bulk bulk_;
   FracturePath path_;
   Condensation rock_;

@@ -16,12 +16,10 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 // it [m]. Cohesion σ at x behind the front takes (8 σ/π E') √(x/r) of the opening at r >> x, and the front's
 // stress intensity of 0 sets K = √(2/π) ∫ σ/√x dx; a shift by s takes K s/(2 r) of the opening of K, so
 //   s = 2 ∫ σ √x dx / ∫ σ/√x dx     (half openings by point forces: Tada, Paris, Irwin 2000)
-double behind_front(const Equations& e, const State& state, Index tip) {
+double behind_front(const Equations& e, const State& state, Index front) {
   double x = 0.0, moment = 0.0, force = 0.0;
-  for (Index c = state.cells[at(tip)].parent; c >= 0; c = state.cells[at(c)].parent) {
-    const double most = state.cells[at(c)].points[0].max_opening;
-    if (force == 0.0 && most <= e.laws[at(c)].elastic_opening()) continue;  // not yet damaged
-    const double sigma = e.laws[at(c)].cohesion(most);
+  for (Index c = front; c >= 0; c = state.cells[at(c)].parent) {
+    const double sigma = e.laws[at(c)].cohesion(state.cells[at(c)].points[0].max_opening);
     const Index parent = state.cells[at(c)].parent;
     if (sigma == 0.0 || parent < 0) break;
     const double to = x + 0.5 * (e.path.edges()[at(c)].length + e.path.edges()[at(parent)].length);
@@ -30,6 +28,25 @@ double behind_front(const Equations& e, const State& state, Index tip) {
     x = to;
   }
   return force > 0.0 ? 2.0 * moment / force : 0.0;
+}
+
+bool is_damaged(const Equations& e, const State& state, Index cell) {
+  return state.cells[at(cell)].points[0].max_opening > e.laws[at(cell)].elastic_opening();
+}
+
+// The damaged cells that no damage goes on from, one for all tips that leave it.
+std::vector<Index> fronts(const Equations& e, const State& state) {
+  std::vector<Index> found;
+  for (const Tip& tip : state.tips) {
+    Index c = state.cells[at(tip.cell)].parent;
+    while (c >= 0 && !is_damaged(e, state, c)) c = state.cells[at(c)].parent;
+    if (c < 0 || std::ranges::find(found, c) != found.end()) continue;
+    bool passed = false;
+    for (std::size_t d = 0; d < state.cells.size() && !passed; ++d)
+      passed = state.cells[d].parent == c && is_damaged(e, state, static_cast<Index>(d));
+    if (!passed) found.push_back(c);
+  }
+  return found;
 }
 
 }  // namespace
@@ -80,7 +97,7 @@ QuasiStaticRow row_of(const Equations& e, const State& state) {
     row.least_pressure = std::min(row.least_pressure, cell.pressure);
   }
   row.elastic_length = row.damaged_length;
-  for (const Tip& tip : state.tips) row.elastic_length -= behind_front(e, state, tip.cell);
+  for (const Index front : fronts(e, state)) row.elastic_length -= behind_front(e, state, front);
   if (wet > 0.0) {
     row.mean_opening /= wet;
     row.contact_fraction = touching / wet;
@@ -138,13 +155,8 @@ std::vector<Vec2> corners_of(const Equations& e, const State& state) {
 std::vector<Sym2> stress_of(const Equations& e, const std::vector<Vec2>& corners) {
   std::vector<Sym2> stress;
   for (Index t = 0; t < e.scene.mesh->triangle_count(); ++t) {
-    const auto g = e.bulk.shape_gradients(t);
-    Sym2 strain;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 u = corners[3 * at(t) + i];
-      strain = strain + Sym2{u.x * g[i].x, u.y * g[i].y, 0.5 * (u.x * g[i].y + u.y * g[i].x)};
-    }
-    stress.push_back(e.scene.stress + e.scene.stiffness.stress(strain));
+    const Vec2* u = &corners[3 * at(t)];
+    stress.push_back(e.bulk.small_stress(t, {u[0], u[1], u[2]}));
   }
   return stress;
 }

@@ -123,8 +123,8 @@ struct Untaken {
 void PrintTo(const Untaken& scene, std::ostream* stream) { *stream << scene.name; }
 
 const std::vector<Untaken> untaken{
-    {"Layers", "[[layers]]\nbottom = 10\nyoung_modulus = 2e10\n", "", "layers are not yet taken"},
-    {"Notches", "[[notches]]\nx1 = 5\ny1 = 0\nx2 = 9\ny2 = 0\n", "", "[[notches]] are not yet taken"},
+    {"PumpedNotches", "[[notches]]\nx1 = 5\ny1 = 0\nx2 = 9\ny2 = 0\n", "",
+     "the well pumps into fracture.notch or its own wall alone"},
     {"Loads", "[[loads]]\nside = \"top\"\ntraction_y = -1e6\n[boundary]\nouter = \"free\"\n", "",
      "[[loads]] are not yet taken"},
     {"StrengthsAlongTheBedding", "", "rock.tensile_strength_bedding=1e6",
@@ -133,14 +133,76 @@ const std::vector<Untaken> untaken{
     {"ViscousFlowWithoutViscosity", "", "fluid.flow=viscous fluid.viscosity=0",
      "needs a fluid.viscosity above 0"},
     {"Tension", "", "stress.yy=1e6", "an effective tension of 1 MPa across the fracture"},
-    {"StressGradient", "", "stress.gradient_xx=1e4", "stress gradients are not yet taken"},
+    {"AbsorbingBoundary", "", "boundary.outer=absorbing",
+     "nothing moves that boundary.outer = \"absorbing\""},
+    {"StraightPathThroughLayers", "[[layers]]\nbottom = 10\nyoung_modulus = 2e10\n", "fracture.path=straight",
+     "\"straight\" cannot be: there are layers"},
+    {"StraightPathUnderAStressGradient", "", "fracture.path=straight stress.gradient_xx=1e4",
+     "\"straight\" cannot be: the stress changes with depth"},
     {"StraightPathAtAnAngle", "", "fracture.path=straight fracture.angle=0.1", "\"straight\" cannot be"},
     {"PathThatEndsInTheNotch", "", "mesh.fine_radius=2.5", "it has to be above fracture.notch"},
-    {"BondedJoint",
-     "[[joints]]\nx1 = 4\ny1 = -2\nx2 = 4\ny2 = 2\nlaw = \"bonded\"\ntensile_strength = 1e6\ncohesion = 1e6\n"
-     "friction_angle = 0.5\nfracture_energy_mode1 = 1\nfracture_energy_mode2 = 1\n",
-     "", "bonded joints are not yet taken"},
 };
+
+// What it takes beside rock that is one: check says how much of it there is.
+TEST_F(Regime, LayersJointsAndNotches) {
+  const std::string layered = write("layered.toml", std::string(kgd) + R"(
+[[layers]]
+bottom = 4
+young_modulus = 2e10
+stress_yy = -9.5e6
+[[joints]]
+x1 = 4
+y1 = -2
+x2 = 4
+y2 = 2
+law = "bonded"
+tensile_strength = 1e6
+cohesion = 1e6
+friction_angle = 0.5
+fracture_energy_mode1 = 1
+fracture_energy_mode2 = 1
+[[notches]]
+x1 = -6
+y1 = -2
+x2 = -6
+y2 = 2
+fluid = "none"
+)");
+  const Outcome outcome = crackle({"check", layered, "--set", "boundary.outer=free"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("regime: quasi-static ("), HasSubstr("8 edges of joints, 4 of them bonded"),
+                    HasSubstr(" in layers.0"), HasSubstr("note: joints that hold break by opening")));
+}
+
+// A mesh of a file: that of the generator gives the same bytes.
+TEST_F(Regime, MeshOfAFile) {
+  std::string made = kgd;
+  made.insert(made.find("notch"), "path = \"free\"\n");
+  const std::string file = write("made.toml", made);
+  ASSERT_EQ(crackle({"mesh", file, "-o", path("made.msh")}).code, 0);
+  std::string read = made.substr(made.find("[rock]"));  // no domain, no sizes
+  read = "[mesh]\nfile = \"made.msh\"\n" + read;
+  const std::string other = write("read.toml", read);
+  const auto regime = [](const std::string& scene) {
+    const std::string out = crackle({"check", scene}).out;
+    const std::size_t line = out.find("\nregime: ");
+    return out.substr(line, out.find('\n', line + 1) - line);
+  };
+  EXPECT_THAT(regime(other), HasSubstr("regime: quasi-static (the run lasts"));
+  EXPECT_EQ(regime(other), regime(file)) << "the size of the domain is that of the file";
+  for (const auto& [scene, out] : {std::pair{file, "made"}, {other, "read"}}) {
+    const Outcome outcome = crackle({"run", scene, "-q", "-o", path(out), "--set", "run.regime=quasi_static",
+                                     "--set", "run.end_time=1 s", "--set", "fluid.pump.0.to=1 s"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  EXPECT_EQ(read_text(path("read/history.csv")), read_text(path("made/history.csv")));
+  const auto refused = [&](const std::string& setting, const char* why) {
+    expect_refusal(crackle({"run", other, "-q", "-o", path("no"), "--set", setting}), 2, why);
+  };
+  refused("fracture.notch=0", "[[joint_sets]]");
+  refused("wellbore.diameter=1", "mesh.file has no curve \"wellbore_wall\"");
+}
 
 class FieldTimeRefusal : public CliTest, public testing::WithParamInterface<Untaken> {};
 INSTANTIATE_TEST_SUITE_P(Of, FieldTimeRefusal, testing::ValuesIn(untaken),

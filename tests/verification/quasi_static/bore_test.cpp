@@ -38,8 +38,8 @@ QuasiStaticScene scene(double size, double reach, double open) {
   s.mesh = std::make_shared<const Mesh>(excavate(generate_mesh(recipe)));
   s.stiffness = granite::stiffness();
   s.law = find_law("linear");
-  s.tensile_strength = granite::cohesive().tensile_strength;
-  s.fracture_energy = granite::cohesive().fracture_energy_mode1;
+  s.cohesive.tensile_strength = granite::cohesive().tensile_strength;
+  s.cohesive.fracture_energy_mode1 = granite::cohesive().fracture_energy_mode1;
   s.closure.residual_aperture = 1e-6;
   s.fluid.viscosity = 1e-6;
   s.fluid.compressibility = 1e-12;
@@ -138,7 +138,7 @@ TEST(QuasiStaticBore, TwoCracksGrow) {
   const Check check("D3 wellbore with two cracks in field time: pressure at which they grow");
   QuasiStatic stage(scene(2.5e-3, 6.5 * radius, radius));
   const double toughness =
-      std::sqrt(plane_strain_modulus(granite::stiffness()) * stage.scene().fracture_energy);
+      std::sqrt(plane_strain_modulus(granite::stiffness()) * stage.scene().cohesive.fracture_energy_mode1);
   double worst = 0.0, mass = 0.0, energy = 0.0;
   for (const auto& [length, factor] : {std::pair{1.5, 1.27234}, {2.0, 1.21581}, {3.0, 1.15189}}) {
     QuasiStaticRow before, row = stage.row();

@@ -34,14 +34,15 @@ TEST(Paths, Cost) {
   s.pore_pressure = 10.56e6;
   s.stress = {-18.3e6, -9.44e6, 0.0};
   s.law = find_law("linear");
-  s.fracture_energy = 31.25;
-  s.tensile_strength = 10e6;
+  s.cohesive.fracture_energy_mode1 = 31.25;
+  s.cohesive.tensile_strength = 10e6;
   s.closure.residual_aperture = 1e-5;
   s.fluid.viscosity = 1e-6;
   s.fluid.cavitation_pressure = 0.0;
   s.fluid.reference_pressure = s.pore_pressure;
   s.pump = Pump({{0.0, 1e9, 1e-4}});
   s.slip = true;
+  s.cohesive.tan_residual = 0.6;
   for (const double end : {1.0, -1.0}) {
     const std::vector<Index> path = edges_along(*mesh, {0.0, 0.0}, {end, 0.0});
     s.wings.push_back({well, path, path.size(), true});

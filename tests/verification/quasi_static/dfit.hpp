@@ -16,8 +16,8 @@ inline QuasiStaticScene scene(double step, double path) {
   s.stiffness = isotropic_plane_strain(42.5e9, 0.17);
   s.pore_pressure = reservoir;
   s.stress = {0.0, reservoir - closure_stress, 0.0};
-  s.fracture_energy = 100.0;
-  s.tensile_strength = 10.75e6;
+  s.cohesive.fracture_energy_mode1 = 100.0;
+  s.cohesive.tensile_strength = 10.75e6;
   s.fluid.viscosity = 1e-3;
   s.fluid.cavitation_pressure = 30e6;
   s.fluid.reference_pressure = reservoir;

@@ -20,8 +20,8 @@ QuasiStaticScene kgd(double step, double path, double toughness, double viscosit
   s.pore_pressure = 10.56e6;
   s.closure.residual_aperture = 1e-5;  // so that the notch holds next to nothing
   s.stress = {0.0, -confinement, 0.0};
-  s.fracture_energy = toughness * toughness / modulus;
-  s.tensile_strength = 10e6;
+  s.cohesive.fracture_energy_mode1 = toughness * toughness / modulus;
+  s.cohesive.tensile_strength = 10e6;
   s.fluid.viscosity = viscosity;
   s.fluid.cavitation_pressure = 0.0;
   s.fluid.reference_pressure = s.pore_pressure;

@@ -2,101 +2,18 @@
 //
 // Paths that nobody lays down: free growth, kinks, two unequal wings, a joint on the way; toughness vertex,
 // so that lengths and pressures are known.
+#include "paths.hpp"
+
 #include <gtest/gtest.h>
 
 #include <ctime>
 
 #include "../../acceptance.hpp"
-#include "wing.hpp"
 
 namespace crackle {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-constexpr double young = 30e9, poisson = 0.25, rate = 1e-4, toughness = 1e6, pore = 10.56e6;
-const double modulus = young / (1.0 - poisson * poisson);
-
-QuasiStaticScene scene_on(std::shared_ptr<const Mesh> mesh, Sym2 stress) {
-  QuasiStaticScene s;
-  s.mesh = std::move(mesh);
-  s.slip = true;
-  s.stiffness = isotropic_plane_strain(young, poisson);
-  s.pore_pressure = pore;
-  s.stress = stress;
-  s.law = find_law("linear");
-  s.fracture_energy = toughness * toughness / modulus;
-  s.tensile_strength = 10e6;
-  s.closure.residual_aperture = 1e-5;
-  s.fluid.viscosity = 1e-6;
-  s.fluid.cavitation_pressure = 0.0;
-  s.fluid.reference_pressure = pore;
-  s.pump = Pump({{0.0, 1e9, rate}});
-  return s;
-}
-
-/// A square of side 2 R [m], cells of `step` [m] cut into four; held at its rim.
-QuasiStaticScene square(double radius, double step, Sym2 stress) {
-  const int n = static_cast<int>(std::lround(2.0 * radius / step));
-  QuasiStaticScene s = scene_on(std::make_shared<const Mesh>(structured_rectangle(
-                                    {-radius, -radius}, {radius, radius}, n, n, MeshPattern::cross)),
-                                stress);
-  s.held.assign(s.mesh->vertices.size(), 0);
-  for (const Edge& e : s.mesh->edges) {
-    if (e.triangle[1] < 0) s.held[at(e.vertex[0])] = s.held[at(e.vertex[1])] = 3;
-  }
-  return s;
-}
-
-/// A wide body with fine edges within `fine` [m] of the middle of y = 0; free, held at two far points.
-QuasiStaticScene wide(double fine, double step, Sym2 stress) {
-  const auto line = [&](double even, double ratio) {
-    const std::vector<double> half = graded_line(0.0, even, 20.0 * fine, {step, ratio});
-    std::vector<double> both;
-    for (std::size_t i = half.size(); i-- > 1;) both.push_back(-half[i]);
-    both.insert(both.end(), half.begin(), half.end());
-    return both;
-  };
-  QuasiStaticScene s =
-      scene_on(std::make_shared<const Mesh>(grid_rectangle(line(fine, 1.2), line(6.0 * step, 1.15))), stress);
-  s.held.assign(s.mesh->vertices.size(), 0);
-  for (std::size_t v = 0; v < s.held.size(); ++v) {
-    const Vec2 p = s.mesh->vertices[v];
-    if (p.y == 0.0 && std::abs(p.x) > 19.9 * fine) s.held[v] = p.x > 0.0 ? 2 : 3;
-  }
-  return s;
-}
-
-Index vertex_at(const Mesh& mesh, Vec2 where) {
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (norm(mesh.vertices[at(v)] - where) < 1e-9) return v;
-  }
-  return -1;
-}
-
-/// A wing along a line from the well, all of it open; on from there it is free.
-Wing free_wing(const QuasiStaticScene& s, Vec2 well, Vec2 end) {
-  Wing w;
-  w.start = vertex_at(*s.mesh, well);
-  w.path = edges_along(*s.mesh, well, end);
-  w.open = w.path.size();
-  w.free = true;
-  return w;
-}
-
-/// Half length [m] and pressure [Pa] of a fracture of so much volume [m2] at the toughness vertex.
-struct Vertex {
-  double half_length, pressure;
-};
-Vertex vertex_of(double volume) {
-  const double a = std::pow(modulus * volume / (2.0 * std::sqrt(M_PI) * toughness), 2.0 / 3.0);
-  return {a, toughness / std::sqrt(M_PI * a)};
-}
-
-Vec2 middle(const QuasiStatic& stage, const PathEdge& e) {
-  const Mesh& mesh = *stage.scene().mesh;
-  return 0.5 * (mesh.vertices[at(e.vertex[0])] + mesh.vertices[at(e.vertex[1])]);
-}
+using namespace paths;
 
 // The well is not in the middle of the notch: both tips still carry the same stress intensity.
 TEST(Paths, UnequalWings) {
@@ -220,7 +137,10 @@ struct Met {
 // A joint across the way at x = 2 m, 8 m long.
 Met meet_joint(double along, double friction) {
   QuasiStaticScene s = square(16.0, 0.5, {along, -9.44e6, 0.0});
-  for (const Index edge : edges_along(*s.mesh, {2.0, -4.0}, {2.0, 4.0})) s.joints.push_back({edge, friction});
+  for (const Index edge : edges_along(*s.mesh, {2.0, -4.0}, {2.0, 4.0})) s.joints.push_back({edge, 1, false});
+  std::ranges::sort(s.joints, {}, &JointEdge::edge);
+  s.joint_materials = {s.cohesive};
+  s.joint_materials[0].tan_residual = friction;
   s.wings = {free_wing(s, {0.0, 0.0}, {1.0, 0.0}), free_wing(s, {0.0, 0.0}, {-1.0, 0.0})};
   QuasiStatic stage(s);
   QuasiStaticRow last;

@@ -43,8 +43,8 @@ inline QuasiStaticScene quasi_static_scene(std::shared_ptr<const Mesh> mesh) {
   s.stiffness = granite::stiffness();
   s.stress = in_situ;
   s.law = find_law("linear");
-  s.tensile_strength = granite::cohesive().tensile_strength;
-  s.fracture_energy = granite::cohesive().fracture_energy_mode1;
+  s.cohesive.tensile_strength = granite::cohesive().tensile_strength;
+  s.cohesive.fracture_energy_mode1 = granite::cohesive().fracture_energy_mode1;
   s.edges_per_zone = 2.0;  // so that the strength is that of the explicit run
   s.closure.residual_aperture = 1e-6;
   s.fluid.viscosity = 1e-9;
@@ -52,6 +52,7 @@ inline QuasiStaticScene quasi_static_scene(std::shared_ptr<const Mesh> mesh) {
   s.fluid.cavitation_pressure = -2e6;
   s.pump = Pump({{0.0, 1.0, rate}});
   s.slip = true;
+  s.cohesive.tan_residual = 0.6;
   s.control.first = 1e-6;
   s.held.assign(mesh->vertices.size(), 0);
   for (const Edge& e : mesh->edges) {
