@@ -239,6 +239,8 @@ double viscosity_of_uniform_pressure(const Case& scene) {
 QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<const Mesh> mesh) {
   QuasiStaticScene s;
   s.stiffness = rock_stiffness(scene.rock);
+  s.density = scene.rock.density;
+  s.control.hand_over = scene.run.hand_over;
   s.stress = scene.stress;
   s.pore_pressure = scene.rock.pore_pressure;
   s.control.first = std::min(s.control.first, 1e-3 * scene.run.end_time);

@@ -64,11 +64,13 @@ struct TimeControl {
   double smallest = 1e-10;  ///< below it the stage gives up [s]
   int edges_per_step = 3;   ///< a tip may advance by in one step
   double energy = 3e-4;     ///< that the ledger of a step may miss, over what the step turns over [-]
+  bool hand_over = false;   ///< to explicit steps where the fracture snaps, and back; else the run ends there
 };
 
 struct QuasiStaticScene {
   std::shared_ptr<const Mesh> mesh;
   PlaneStiffness stiffness;
+  double density = 0.0;        ///< of the rock [kg/m3]; without a hand-over not asked for
   Held held;                   ///< components held at zero displacement, per vertex
   Sym2 stress;                 ///< in situ, effective [Pa]
   double pore_pressure = 0.0;  ///< in the dry rock; also that of the fluid at first [Pa]

@@ -67,6 +67,10 @@ Condensation::Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, c
         "static condensation: the stiffness matrix is singular; is the rock held by nothing?");
 }
 
+const std::vector<PointLoad>& Condensation::load(std::size_t number) const {
+  return factor_->loads[number].corners;
+}
+
 void Condensation::add_load(std::vector<PointLoad> forces) {
   Factor::Load load{std::move(forces), Eigen::VectorXd::Zero(factor_->solver.rows()), {}, {}};
   for (const PointLoad& corner : load.corners) {
