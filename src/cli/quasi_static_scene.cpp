@@ -274,6 +274,7 @@ QuasiStaticScene make_quasi_static_scene(const Case& scene, std::shared_ptr<cons
   s.triangle_stiffness.reset();  // that makes up for cohesive elements on all edges
   for (RockMass& layer : s.layers) layer.triangle_stiffness.reset();
   s.mesh = std::move(mesh);
+  s.control.hand_over = scene.run.hand_over;
   s.pore_pressure = scene.rock.pore_pressure;
   s.control.first = std::min(s.control.first, 1e-3 * scene.run.end_time);
   s.law = find_law(scene.cohesive.law);

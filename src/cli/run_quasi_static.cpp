@@ -66,6 +66,7 @@ FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, co
   h.energy_faces = wings * e.faces;
   h.energy_fracture = wings * e.fracture;
   h.energy_friction = wings * e.friction;
+  h.energy_radiated = wings * e.radiated;
   h.energy_residual = e.residual;
   h.iterations = row.iterations;
   return h;
@@ -240,12 +241,30 @@ class FieldTimeRun {
       const double every = scene_.output.fields_every;
       memory_.next_frame += every * std::ceil((stage_->time() - memory_.next_frame) / every + 1e-12);
     }
+    const quasi_static::Motion before = stage_->state().motion;
     row_ = stage_->step(scene_.run.end_time);
+    tell_hand_over(before, stage_->state().motion);
     folder_.append_field_time(history_row(*stage_, row_, scene_));
     memory_.mass_residual_max =
         std::max(memory_.mass_residual_max, std::abs(row_.mass_defect) / std::max(row_.injected, 1e-12));
     tally_.pressure(row_.time, row_.well_pressure, row_.step);
     tally_.residual(row_.energies.residual);
+  }
+
+  void tell_hand_over(const quasi_static::Motion& before, const quasi_static::Motion& after) {
+    if (!before.moves() && after.moves()) {
+      say(
+          fmt::format("{:.6g} s, {:.3f} MPa: the fracture snaps, on by explicit steps of {:.2g} s",
+                      after.begin, 1e-6 * row_.well_pressure, row_.step / static_cast<double>(after.steps)));
+    } else if (before.moves() && !after.moves()) {
+      const double wings = 2.0 / modelled_halves(scene_);
+      say(
+          fmt::format("{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms by {} explicit steps: the "
+                      "fracture has grown by {:.3g} m (both wings), {:.3g} J/m went into waves",
+                      row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - before.begin), before.steps,
+                      wings * (row_.damaged_length - before.length),
+                      wings * (row_.energies.radiated - before.radiated)));
+    }
   }
 
   void write_frame() {

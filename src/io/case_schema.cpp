@@ -348,6 +348,7 @@ std::vector<TableSpec> make_tables() {
       number("end_time", slot<&C::run, &C::Run::end_time>(), duration, positive, Need::always, "simulated time at the end"),
       number("time_step", slot<&C::run, &C::Run::time_step>(), duration, positive, Need::never, "\"auto\": the stable one times safety", {}, "auto"),
       text("fast_forward", slot<&C::run, &C::Run::fast_forward>(), "true: the elastic ramp before the first edge nears its strength by static solves, where that holds"),
+      text("hand_over", slot<&C::run, &C::Run::hand_over>(), "true: in field time, where a fracture snaps and no equilibrium is near, to explicit steps with inertia, and back once it has stopped; false: the run ends there"),
       number("safety", slot<&C::run, &C::Run::safety>(), plain, fraction, Need::never, "share of the stable time step that \"auto\" takes"),
     }},
     {"seismic", {

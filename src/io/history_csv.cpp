@@ -38,18 +38,18 @@ std::string field_time_header() {
          "closure_stress_Pa,"
          "work_pump_J_m,energy_well_J_m,energy_entry_J_m,energy_viscous_J_m,energy_leaked_J_m,"
          "energy_fluid_J_m,energy_strain_J_m,energy_confinement_J_m,energy_faces_J_m,energy_fracture_J_m,"
-         "energy_friction_J_m,energy_residual,iterations\n";
+         "energy_friction_J_m,energy_radiated_J_m,energy_residual,iterations\n";
 }
 
 std::string field_time_line(const FieldTimeRow& r) {
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
       r.time, r.time_step, r.pressure, r.rate, r.perforation_rate, r.fracture_pressure, r.least_pressure,
       r.injected, r.well_stored, r.fracture_volume, r.leaked, r.mass_defect, r.broken_length,
       r.damaged_length, r.half_length, r.opening, r.mean_opening, r.contact_fraction, r.closure_stress,
       r.work_pump, r.energy_well, r.energy_entry, r.energy_viscous, r.energy_leaked, r.energy_fluid,
       r.energy_strain, r.energy_confinement, r.energy_faces, r.energy_fracture, r.energy_friction,
-      r.energy_residual, r.iterations);
+      r.energy_radiated, r.energy_residual, r.iterations);
 }
 
 }  // namespace crackle

@@ -227,6 +227,7 @@ struct Case {
     double end_time = 0.0;        ///< [s]
     double time_step = 0.0;       ///< [s]; 0: "auto"
     bool fast_forward = true;     ///< the elastic ramp by static solves, where it holds
+    bool hand_over = true;        ///< in field time, to explicit steps where a fracture snaps, and back
     double safety = 0.8;          ///< fraction of the stable time step taken by "auto" [-]
   } run;
 

@@ -58,7 +58,7 @@ struct FieldTimeRow {
   double closure_stress = 0.0;               ///< total compression across the fracture [Pa]
   double work_pump = 0.0, energy_well = 0.0, energy_entry = 0.0, energy_viscous = 0.0, energy_leaked = 0.0,
          energy_fluid = 0.0, energy_strain = 0.0, energy_confinement = 0.0, energy_faces = 0.0,
-         energy_fracture = 0.0, energy_friction = 0.0;  ///< [J/m]
+         energy_fracture = 0.0, energy_friction = 0.0, energy_radiated = 0.0;  ///< [J/m]
   double energy_residual = 0.0;                         ///< [-]
   int iterations = 0;                                   ///< of Newton
 };

@@ -34,6 +34,7 @@ class Condensation {
 
   /// Adds a load on the rock; before any unknown is followed. Loads are numbered as they come.
   void add_load(std::vector<PointLoad> forces);
+  const std::vector<PointLoad>& load(std::size_t number) const;
 
   /// Makes the unknowns those given; those that it holds already, in the same place, are kept.
   void follow(const std::vector<JumpUnknown>& unknowns);

@@ -67,11 +67,12 @@ class FracturePath {
   bool holds(Index edge) const { return on_path_[static_cast<std::size_t>(edge)] != 0; }
   /// Triangles round a vertex.
   std::vector<Index> fan(Index vertex) const;
+  /// The same in the sectors that the path cuts them into.
+  std::vector<std::vector<Index>> sectors(Index vertex) const;
   /// Mesh edges that end at a vertex.
   std::vector<Index> mesh_edges_at(Index vertex) const;
 
  private:
-  std::vector<std::vector<Index>> sectors(Index vertex) const;
   void split(Index vertex, Vec2 normal);
   void renew_jumps(Index vertex);
 

@@ -130,7 +130,21 @@ void members(Energies& e, V&& v) {
   v("faces", e.faces);
   v("fracture", e.fracture);
   v("friction", e.friction);
+  v("radiated", e.radiated);
   v("residual", e.residual);
+}
+
+template <class V>
+void members(Motion& m, V&& v) {
+  v("place", m.place);
+  v("velocity", m.velocity);
+  v("begin", m.begin);
+  v("tried", m.tried);
+  v("length", m.length);
+  v("radiated", m.radiated);
+  v("damped", m.damped);
+  v("kinetic", m.kinetic);
+  v("steps", m.steps);
 }
 
 template <class V>
@@ -157,6 +171,7 @@ void members(State& s, V&& v) {
   v("initial", s.initial);
   v("rejected", s.rejected);
   v("iterations", s.iterations);
+  v("motion", s.motion);
 }
 
 }  // namespace quasi_static

@@ -62,6 +62,7 @@ struct TimeControl {
   double smallest = 1e-10;  ///< below it the stage gives up [s]
   int edges_per_step = 3;   ///< a tip may advance by in one step
   double energy = 3e-4;     ///< that the ledger of a step may miss, over what the step turns over [-]
+  bool hand_over = false;   ///< to explicit steps where the fracture snaps, and back; else the run ends there
 };
 
 /// Of the materials of its rock, joints and layers the stage takes tensile strength, fracture energy of

@@ -63,7 +63,22 @@ struct Energies {
   double faces = 0.0;        ///< kept by bonds and asperities
   double fracture = 0.0;     ///< dissipated by fracture
   double friction = 0.0;     ///< dissipated by friction of closed faces
+  double radiated = 0.0;     ///< of motion where the fracture snapped: kinetic, and damped
   double residual = 0.0;     ///< what does not add up, over the work of the pump [-]
+};
+
+/// Of the rock where the fracture snaps (dynamics.hpp in src).
+struct Motion {
+  std::vector<Vec2> place;     ///< displacement of every corner of every triangle [m]; empty: at rest
+  std::vector<Vec2> velocity;  ///< half a step before the time [m/s]
+  double begin = 0.0;          ///< [s]
+  double tried = 0.0;          ///< step for which there was no equilibrium [s]
+  double length = 0.0;         ///< damaged before [m]
+  double radiated = 0.0;       ///< before [J/m]
+  double damped = 0.0;         ///< since the beginning [J/m]
+  double kinetic = 0.0;        ///< now [J/m]
+  std::int64_t steps = 0;      ///< since the beginning
+  bool moves() const { return !place.empty(); }
 };
 
 struct State {
@@ -86,6 +101,7 @@ struct State {
   Energies energies;
   Energies initial;                           ///< what the initial state keeps
   std::int64_t rejected = 0, iterations = 0;  ///< steps taken back; of Newton
+  Motion motion;
 };
 
 }  // namespace crackle::quasi_static

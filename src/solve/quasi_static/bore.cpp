@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "dynamics.hpp"
+
 namespace crackle::quasi_static {
 namespace {
 
@@ -25,6 +27,7 @@ std::vector<PointLoad> on_the_wall(const Mesh& mesh, Traction&& traction) {
 }
 
 double volume(const Equations& e, const State& state) {
+  if (e.moving) return e.moving->bore_volume(state.jumps);
   const double p = state.well_pressure - e.scene.pore_pressure;
   double v = e.bore + e.rock.compliance(excavated, pressed) + p * e.rock.compliance(pressed, pressed);
   for (std::size_t k = 0; k < state.jumps.size(); ++k) v += e.rock.force(pressed, k) * state.jumps[k];
@@ -58,6 +61,7 @@ std::array<double, 2> wall_loads(const Equations& e, const State& state) {
 }
 
 std::vector<Vec2> displacement(const Equations& e, const State& state) {
+  if (e.moving) return e.moving->displacement();
   if (e.bore == 0.0) return e.rock.displacement(state.jumps);
   return e.rock.displacement(state.jumps, wall_loads(e, state));
 }
@@ -69,18 +73,24 @@ double fluid_in_bore(const Equations& e, const State& state) {
 double well_storage(const Equations& e, const State& state) {
   if (e.bore == 0.0) return e.scene.well.storage;
   const ValueSlope density = e.scene.fluid.density(state.well_pressure);
-  return e.scene.well.storage + density.slope * volume(e, state) +
-         density.value * e.rock.compliance(pressed, pressed);
+  const double yields = e.moving ? 0.0 : e.rock.compliance(pressed, pressed);  // within an explicit step not
+  return e.scene.well.storage + density.slope * volume(e, state) + density.value * yields;
 }
 
 void add_bore_energies(const Equations& e, const State& state, Energies& kept) {
   if (e.bore == 0.0) return;
   const double p = state.well_pressure - e.scene.pore_pressure;
-  const double moved = p * e.rock.compliance(excavated, pressed);
-  kept.strain += moved + 0.5 * p * p * e.rock.compliance(pressed, pressed);
-  kept.confinement -= moved;
-  for (std::size_t k = 0; k < state.jumps.size(); ++k)
-    kept.confinement -= e.rock.force(excavated, k) * state.jumps[k];
+  if (e.moving) {
+    const double drilled = e.rock.compliance(excavated, excavated);
+    kept.strain -= 0.5 * drilled;
+    kept.confinement -= e.moving->work(excavated) - drilled;
+  } else {
+    const double moved = p * e.rock.compliance(excavated, pressed);
+    kept.strain += moved + 0.5 * p * p * e.rock.compliance(pressed, pressed);
+    kept.confinement -= moved;
+    for (std::size_t k = 0; k < state.jumps.size(); ++k)
+      kept.confinement -= e.rock.force(excavated, k) * state.jumps[k];
+  }
   const double h =
       e.scene.fluid.enthalpy(state.well_pressure) - e.scene.fluid.enthalpy(e.scene.pore_pressure);
   kept.fluid += state.bore * h - p * volume(e, state);

@@ -70,6 +70,10 @@ Condensation::Condensation(std::shared_ptr<const Mesh> mesh, const Bulk& bulk, c
         "static condensation: the stiffness matrix is singular; is the rock held by nothing?");
 }
 
+const std::vector<PointLoad>& Condensation::load(std::size_t number) const {
+  return factor_->loads[number].corners;
+}
+
 Eigen::VectorXd Condensation::Factor::sum(const std::vector<Index>& equation,
                                           const std::vector<PointLoad>& forces) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(solver.rows());

@@ -10,6 +10,7 @@
 
 #include "bore.hpp"
 #include "crackle/core/errors.hpp"
+#include "dynamics.hpp"
 #include "record.hpp"
 
 namespace crackle::quasi_static {
@@ -140,9 +141,17 @@ void take_over(const Equations& e, State& state, std::size_t first) {
   // Forces that hold the new jumps shut, less what older points bear of them.
   Eigen::VectorXd force = Eigen::VectorXd::Zero(count);
   Eigen::MatrixXd share = Eigen::MatrixXd::Zero(count, count);
-  for (Index k = 0; k < count; ++k) {
+  for (Index k = 0; k < count && !e.moving; ++k) {
     const double* row = e.rock.row(first + at(k));
     for (std::size_t j = 0; j < first; ++j) force[k] += row[j] * state.jumps[j];
+  }
+  if (e.moving) {
+    for (const Dynamics::Block& block : e.moving->blocks()) {
+      for (std::size_t k = 0; k < block.unknowns.size(); ++k) {
+        if (const Index i = joined(block.unknowns[k]); i >= 0)
+          force[i] += Dynamics::inertia(block, k, state.jumps, e.moving->target(), e.moving->dt());
+      }
+    }
   }
   std::vector<std::pair<std::size_t, std::size_t>> points;
   for (std::size_t c = 0; c < state.cells.size(); ++c) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bore.hpp"
+#include "dynamics.hpp"
 
 namespace crackle::quasi_static {
 namespace {
@@ -17,6 +18,7 @@ double enthalpy(const QuasiStaticScene& scene, double pressure) {
 }
 
 double strain_energy(const Equations& e, const State& state) {
+  if (e.moving) return e.moving->strain_energy();
   double sum = 0.0;
   for (std::size_t i = 0; i < state.jumps.size(); ++i) {
     const double* row = e.rock.row(i);
@@ -32,6 +34,19 @@ double pressure_before(const Equations& e, const State& before, Index cell) {
   while (cell >= 0 && (at(cell) >= before.cells.size() || !before.cells[at(cell)].wet))
     cell = e.path.edges()[at(cell)].parent;
   return cell < 0 ? before.well_pressure : before.cells[at(cell)].pressure;
+}
+
+/// Lost as fluid fills a dry cell that nothing has pressed [J/m]: it comes under pressure between faces that
+/// have moved without it.
+double fill_loss(const Equations& e, const State& before, const State& after, std::size_t c) {
+  if (e.scene.wetting == Wetting::tip_pressure || !after.cells[c].wet) return 0.0;
+  if (c < before.cells.size() && before.cells[c].wet) return 0.0;
+  const PathEdge& edge = e.path.edges()[c];
+  std::vector<double> jumps = before.jumps;
+  jumps.resize(after.jumps.size(), 0.0);  // of what has joined the path
+  const auto a = openings(edge, jumps), b = openings(edge, after.jumps);
+  const double twice = 0.5 * edge.length * (a[0] + a[1] + b[0] + b[1]);  // the mean volume
+  return 0.5 * twice * (after.cells[c].pressure - e.scene.pore_pressure);
 }
 
 /// A point that may slip: what acts along it.
@@ -111,9 +126,9 @@ Energies kept(const Equations& e, const State& state) {
 }
 
 // What the work of the pump becomes.
-constexpr std::array parts{&Energies::well,     &Energies::entry,   &Energies::viscous,     &Energies::leaked,
-                           &Energies::fluid,    &Energies::strain,  &Energies::confinement, &Energies::faces,
-                           &Energies::fracture, &Energies::friction};
+constexpr std::array parts{&Energies::well,     &Energies::entry,    &Energies::viscous,     &Energies::leaked,
+                           &Energies::fluid,    &Energies::strain,   &Energies::confinement, &Energies::faces,
+                           &Energies::fracture, &Energies::friction, &Energies::radiated};
 
 double left(const Energies& sum) {
   double rest = sum.pumped;
@@ -126,8 +141,12 @@ double left(const Energies& sum) {
 void begin_ledger(const Equations& equations, State& state) { state.initial = kept(equations, state); }
 
 void account(const Equations& e, const State& before, State& after, double dt, double rate) {
+  account_flow(e, before, after, dt, rate);
+  account_kept(e, before, after);
+}
+
+void account_flow(const Equations& e, const State& before, State& after, double dt, double rate) {
   Energies& sum = after.energies;
-  const Energies now = kept(e, after);
   const auto h = [&](double p) { return enthalpy(e.scene, p); };
   const double well = 0.5 * (h(before.well_pressure) + h(after.well_pressure));
   sum.pumped += well * rate * dt;
@@ -147,19 +166,31 @@ void account(const Equations& e, const State& before, State& after, double dt, d
     const double lost = cell.leaked - (old ? before.cells[c].leaked : 0.0);
     sum.entry += (well - mean) * entered[c];
     sum.leaked += mean * lost;
-    sum.viscous -= mean * (gained + lost - entered[c]);
+    sum.viscous += fill_loss(e, before, after, c) - mean * (gained + lost - entered[c]);
   }
-  sum.fracture += opened(e, after) - opened(e, before);
   if (e.scene.slip) {
     const Slid step = slid(e, before, after);
     sum.friction += step.friction;
     sum.fracture += step.fracture;
   }
+}
+
+void account_kept(const Equations& e, const State& before, State& after) {
+  Energies& sum = after.energies;
+  const Energies now = kept(e, after);
+  sum.fracture += opened(e, after) - opened(e, before);
   sum.fluid = now.fluid - after.initial.fluid;
   sum.strain = now.strain - after.initial.strain;
   sum.confinement = now.confinement - after.initial.confinement;
   sum.faces = now.faces - after.initial.faces;
   sum.residual = std::abs(left(sum)) / std::max({sum.pumped, sum.well, 1e-30});
+}
+
+void account_rest(const Equations& e, State& state) {
+  const double before = left(state.energies);
+  account_kept(e, state, state);
+  state.energies.radiated += left(state.energies) - before;
+  state.energies.residual = std::abs(before) / std::max({state.energies.pumped, state.energies.well, 1e-30});
 }
 
 double error_of_step(const Energies& before, const Energies& after) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bore.hpp"
+#include "dynamics.hpp"
 
 namespace crackle::quasi_static {
 namespace {
@@ -20,6 +21,7 @@ constexpr double bore_tolerance = 1e-10;  // where a step of the well alone is a
 constexpr double round_off = 1e-15;
 constexpr double pressure_unit = 1e6;  // [Pa]
 constexpr double rate_unit = 1e-4;     // [m2/s]
+constexpr double jump_unit = 1e-6;     // [m], in motion
 
 double opening_of(const std::vector<JumpTerm>& terms, const std::vector<double>& jumps) {
   double w = 0.0;
@@ -56,15 +58,22 @@ class System {
   // careful: without the negative slopes of softening, which may turn Newton's step round at the peak
   void assemble(bool careful) {
     careful_ = careful;
-    stiffness_.setZero(jumps_, jumps_);
+    if (!e_.moving) {
+      stiffness_.setZero(jumps_, jumps_);
+      by_jumps_.setZero(fluid_, jumps_);
+    }
+    coupling_.clear();
     rock_residual_.setZero(jumps_);
-    by_jumps_.setZero(fluid_, jumps_);
     fluid_residual_.setZero(fluid_);
     by_fluid_.clear();
     fluid_entries_.clear();
     rock_scale_ = fluid_scale_ = fluid_error_ = fluid_noise_ = 0.0;
-    add_rock();
-    add_bore();
+    if (e_.moving) {
+      add_inertia();
+    } else {
+      add_rock();
+      add_bore();
+    }
     add_faces();
     if (fluid_ == 0) return;
     add_cells();
@@ -81,6 +90,7 @@ class System {
 
   // Newton's step of jumps and fluid unknowns.
   bool solve(Eigen::VectorXd& jumps, Eigen::VectorXd& fluid) const {
+    if (e_.moving) return solve_sparse(jumps, fluid);
     if (fluid_ == 0) {
       jumps = stiffness_.partialPivLu().solve(-rock_residual_);
       return jumps.allFinite();
@@ -108,6 +118,39 @@ class System {
     jumps = condensed.partialPivLu().solve(load);
     fluid = -x.col(jumps_) - x.leftCols(jumps_) * jumps;
     return jumps.allFinite() && fluid.allFinite();
+  }
+
+  // All unknowns at once, rows scaled by their largest entry.
+  bool solve_sparse(Eigen::VectorXd& jumps, Eigen::VectorXd& fluid) const {
+    std::vector<Eigen::Triplet<double>> all;
+    for (const auto& t : coupling_) all.emplace_back(t.row(), t.col(), jump_unit * t.value());
+    for (const auto& t : by_fluid_) all.emplace_back(t.row(), jumps_ + t.col(), t.value());
+    for (const auto& t : fluid_entries_) all.emplace_back(jumps_ + t.row(), jumps_ + t.col(), t.value());
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(jumps_ + fluid_);
+    for (const auto& t : all) largest[t.row()] = std::max(largest[t.row()], std::abs(t.value()));
+    for (auto& t : all) t = {t.row(), t.col(), t.value() / largest[t.row()]};
+    Eigen::SparseMatrix<double> matrix(jumps_ + fluid_, jumps_ + fluid_);
+    matrix.setFromTriplets(all.begin(), all.end());
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
+    if (lu.info() != Eigen::Success) return false;
+    Eigen::VectorXd residual(jumps_ + fluid_);
+    residual << rock_residual_, fluid_residual_;
+    const Eigen::VectorXd step = lu.solve(-(residual.array() / largest.array()).matrix());
+    jumps = jump_unit * step.head(jumps_);
+    fluid = step.tail(fluid_);
+    return step.allFinite();
+  }
+
+  // Forces of faces and the fluid in them on the jumps.
+  std::vector<double> face_forces() {
+    coupling_.clear();
+    by_fluid_.clear();
+    stiffness_.setZero(e_.moving ? 0 : jumps_, e_.moving ? 0 : jumps_);
+    rock_residual_.setZero(jumps_);
+    add_faces();
+    std::vector<double> forces(at(jumps_));
+    for (Index k = 0; k < jumps_; ++k) forces[at(k)] = -rock_residual_[k];
+    return forces;
   }
 
   // Share of a step that leaves every closing point at least 30 % of its opening.
@@ -151,6 +194,38 @@ class System {
     rock_scale_ += rock_residual_.lpNorm<1>();
   }
 
+  void add_inertia() {
+    const Dynamics& moving = *e_.moving;
+    for (const Dynamics::Block& block : moving.blocks()) {
+      const std::size_t n = block.unknowns.size();
+      for (std::size_t k = 0; k < n; ++k) {
+        rock_residual_[block.unknowns[k]] +=
+            Dynamics::inertia(block, k, s_.jumps, moving.target(), moving.dt());
+        for (std::size_t l = 0; l < n; ++l)
+          stiffen(block.unknowns[k], block.unknowns[l],
+                  block.inertia[k * n + l] / (moving.dt() * moving.dt()));
+      }
+    }
+    rock_scale_ += rock_residual_.lpNorm<1>();
+  }
+
+  // d(force on jump a)/d(jump b), with the sign of a stiffness.
+  void stiffen(Index a, Index b, double slope) {
+    if (e_.moving) {
+      coupling_.emplace_back(a, b, slope);
+    } else {
+      stiffness_(a, b) += slope;
+    }
+  }
+  // d(row of the fluid)/d(jump).
+  void by_jump(Index row, Index jump, double slope) {
+    if (e_.moving) {
+      coupling_.emplace_back(jumps_ + row, jump, slope);
+    } else {
+      by_jumps_(row, jump) += slope;
+    }
+  }
+
   // What excavation took from the wall of the wellbore, and the pressure of the well on it.
   void add_bore() {
     if (e_.bore == 0.0) return;
@@ -187,10 +262,9 @@ class System {
                          (std::abs(p - e_.scene.pore_pressure) + std::abs(t.normal - point.in_situ)) *
                          std::abs(a.normal);
           for (const JumpTerm& b : edge.jump[i]) {
-            stiffness_(a.unknown, b.unknown) += weight * t.nn * a.normal * b.normal;
-            if (!e_.scene.slip) continue;
-            stiffness_(a.unknown, b.unknown) +=
-                weight * (t.sn * a.tangent * b.normal + t.ss * a.tangent * b.tangent);
+            double slope = weight * t.nn * a.normal * b.normal;
+            if (e_.scene.slip) slope += weight * (t.sn * a.tangent * b.normal + t.ss * a.tangent * b.tangent);
+            stiffen(a.unknown, b.unknown, slope);
           }
           if (source >= 0 && pressure_[at(source)] >= 0)
             by_fluid_.emplace_back(a.unknown, pressure_[at(source)], -weight * a.normal * pressure_unit);
@@ -206,7 +280,7 @@ class System {
   // d(row)/d(aperture of cell) into the columns of the jumps.
   void by_aperture(Index row, Index cell, double slope) {
     for (const auto& end : e_.path.edges()[at(cell)].jump) {
-      for (const JumpTerm& t : end) by_jumps_(row, t.unknown) += 0.5 * slope * t.normal;
+      for (const JumpTerm& t : end) by_jump(row, t.unknown, 0.5 * slope * t.normal);
     }
   }
   void by_pressure(Index row, Index cell, double slope) {
@@ -274,10 +348,12 @@ class System {
     const double share = largest > 0.0 ? flow.value / largest : 1.0;
     // of several branches the slower ones follow the largest: their own slope is left at its share
     const double slope = around.size() == 2 ? flow.slope : share;
+    double rest = 0.0;  // what the others' drops leave for the last one, so that nothing is lost by round-off
     for (const Index c : around) {
       const Index row = pressure_[at(c)];
       const double a = 2.0 / e_.path.edges()[at(c)].length;
-      const double drop = a * (mean - s_.cells[at(c)].pressure);
+      const double drop = c == around.back() ? rest : a * (mean - s_.cells[at(c)].pressure);
+      rest -= drop;
       fluid_residual_[row] -= dt_ * share * k.value * drop;
       fluid_noise_ += round_off * dt_ * k.value * a * std::abs(mean);
       for (const Index j : around) {
@@ -320,7 +396,9 @@ class System {
       stored += fluid_in_bore(e_, s_) - s_.bore;
       fluid_noise_ += round_off * e_.bore;
       const double density = e_.scene.fluid.density(s_.well_pressure).value;
-      for (Index k = 0; k < jumps_; ++k) by_jumps_(well_, k) += density * e_.rock.force(pressed, at(k));
+      for (Index k = 0; k < jumps_; ++k)
+        by_jump(well_, k,
+                density * (e_.moving ? e_.moving->bore_by_jump()[at(k)] : e_.rock.force(pressed, at(k))));
     }
     fluid_residual_[well_] = stored - dt_ * (rate_ - out);
     fluid_error_ += std::abs(fluid_residual_[well_]);
@@ -341,6 +419,7 @@ class System {
   Eigen::MatrixXd stiffness_, by_jumps_;
   Eigen::VectorXd rock_residual_, fluid_residual_;
   std::vector<Eigen::Triplet<double>> by_fluid_, fluid_entries_;
+  std::vector<Eigen::Triplet<double>> coupling_;  // in motion: of all rows by jumps
   double rock_scale_ = 0.0, fluid_scale_ = 0.0, fluid_error_ = 0.0;
   double fluid_noise_ =
       0.0;  // round-off of flow between cells at nearly the same pressure, of a full wellbore
@@ -399,6 +478,10 @@ ValueSlope leak(const Equations& equations, const State& state, Index cell, doub
     return {faces * (r.slope * pressure + r.constant), faces * r.slope};
   }
   return {};
+}
+
+std::vector<double> face_forces(const Equations& equations, const State& state) {
+  return System(equations, state, 0.0, 0.0).face_forces();
 }
 
 NewtonResult solve(const Equations& equations, State& state, double dt, double rate) {

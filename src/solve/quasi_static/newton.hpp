@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One implicit step on a given path: Newton on jumps, pressures of wet cells, rates of inlets, and the
-// pressure of the well. The fluid's unknowns are eliminated first (sparse), the jumps solved for (dense).
+// pressure of the well. The fluid's unknowns are eliminated first (sparse), the jumps solved for (dense);
+// in motion, where the rock does not couple the jumps of different vertices, all at once (sparse).
 #pragma once
 
 #include <optional>
@@ -14,6 +15,8 @@
 
 namespace crackle::quasi_static {
 
+class Dynamics;
+
 /// All that the equations need beside the state.
 struct Equations {
   const QuasiStaticScene& scene;
@@ -22,7 +25,8 @@ struct Equations {
   const Condensation& rock;
   const std::vector<InterfaceLaw>& laws;  // one per path edge
   const std::optional<MatrixDiffusion>& matrix;
-  double bore = 0.0;  // volume of the wellbore in the mesh as it is drilled [m2]; 0: none
+  double bore = 0.0;           // volume of the wellbore in the mesh as it is drilled [m2]; 0: none
+  Dynamics* moving = nullptr;  // while the rock is in motion: stands for the condensed rock
 };
 
 /// Opening [m] at the two ends of a path edge, and slip.
@@ -51,5 +55,8 @@ struct NewtonResult {
 /// of the step) to the end of a step of length dt [s] with a mean pump rate [m2/s].
 /// dt = 0: equilibrium at the given pressures.
 NewtonResult solve(const Equations& equations, State& state, double dt, double rate);
+
+/// Forces [N/m] of faces and the fluid in them on every unknown.
+std::vector<double> face_forces(const Equations& equations, const State& state);
 
 }  // namespace crackle::quasi_static

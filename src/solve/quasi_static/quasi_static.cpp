@@ -10,6 +10,8 @@
 
 #include "bore.hpp"
 #include "crackle/core/errors.hpp"
+#include "crackle/solve/estimates.hpp"
+#include "dynamics.hpp"
 #include "growth.hpp"
 #include "ledger.hpp"
 #include "newton.hpp"
@@ -28,6 +30,13 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr double damage_at_tip = 0.25;
 
 constexpr int most_cuts = 6;  // of a step whose energy does not add up
+
+// Hand-over to explicit steps and back:
+constexpr double fast = 0.1;        // of the Rayleigh speed: a tip that is faster snaps
+constexpr int steps_in_row = 200;   // explicit ones between two rows
+constexpr double calm = 0.01;       // kinetic energy over what went into motion
+constexpr double close_by = 0.02;   // change of pressure and jumps as equilibrium takes over
+constexpr double shortest = 1e-3;   // share of the stable step
 
 void check(const QuasiStaticScene& scene) {
   const auto require = [](bool holds, const char* what) {
@@ -50,6 +59,8 @@ void check(const QuasiStaticScene& scene) {
   require(scene.closure.residual_aperture > 0.0,
           "residual aperture has to be positive: a mated fracture without any would never let fluid in");
   require(scene.fluid.compressibility > 0.0, "the fluid needs a compressibility");
+  require(!scene.control.hand_over || scene.density > 0.0,
+          "explicit steps where the fracture snaps need the density of the rock");
   require(scene.pore_pressure - scene.fluid.cavitation_pressure >= 1e6,
           "cavitation pressure has to be at least 1 MPa below the initial pressure");
 }
@@ -90,6 +101,7 @@ class QuasiStatic::Solver {
 
   QuasiStaticRow step(double end) {
     if (!(end > state_.time)) throw CaseError("quasi-static stage: a step has to end later than it starts");
+    if (state_.motion.moves()) return go_on_moving(end);
     double shorter = 0.5;
     int too_long = 0;
     for (double dt = choose(end);; dt *= shorter) {
@@ -112,9 +124,12 @@ class QuasiStatic::Solver {
       const bool cut = error > 1.0 && 0.1 * dt > scene_.control.smallest && too_long++ < most_cuts;
       shorter = cut ? std::clamp(suits, 0.1, 0.5) : 0.5;
       if (iterations < 0 || cut) {
-        path_.truncate(edges);
-        laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(edges), laws_.end());
-        ++state_.rejected;
+        take_back(edges);
+        if (iterations < 0 && snaps(dt)) {
+          state_.motion = qs::set_in_motion(equations_, state_);
+          state_.motion.tried = dt;
+          return move(end);
+        }
         continue;
       }
       trial.step = std::max(dt * std::clamp(suits, 0.5, scene_.control.growth), scene_.control.smallest);
@@ -193,7 +208,7 @@ class QuasiStatic::Solver {
     } else {
       qs::NextEdge next = qs::next_in_joint(equations_, tip);
       if (next.edge < 0) {
-        rock_.follow(path_.unknowns());
+        if (!dynamics_) rock_.follow(path_.unknowns());
         next = qs::choose_edge(equations_, state, tip);
       }
       cell.edge = next.edge;
@@ -295,7 +310,7 @@ class QuasiStatic::Solver {
     std::vector<int> grown;
     while (true) {
       grown.resize(trial.tips.size(), 0);
-      rock_.follow(path_.unknowns());
+      if (!dynamics_) rock_.follow(path_.unknowns());
       const qs::NewtonResult result = qs::solve(equations_, trial, dt, rate);
       iterations += result.iterations;
       spent_ = iterations;
@@ -329,8 +344,13 @@ class QuasiStatic::Solver {
     const std::size_t jumps = state.jumps.size();
     extend(state, tip, next);
     meet_joints(state, tip);
-    rock_.follow(path_.unknowns());
+    if (dynamics_) {
+      dynamics_->follow_path(state);
+    } else {
+      rock_.follow(path_.unknowns());
+    }
     qs::take_over(equations_, state, jumps);
+    if (dynamics_) dynamics_->set_faces(qs::face_forces(equations_, state), jumps);
   }
 
   void fill(qs::State& state, Index cell) const {
@@ -381,6 +401,11 @@ class QuasiStatic::Solver {
 
   // Histories, masses and energies at the end of a step that has converged.
   void finish(qs::State& trial, double until, double dt, double rate) {
+    finish_cells(trial, until, dt, rate);
+    qs::account(equations_, state_, trial, dt, rate);
+  }
+
+  void finish_cells(qs::State& trial, double until, double dt, double rate) {
     for (std::size_t c = 0; c < trial.cells.size(); ++c) {
       qs::Cell& cell = trial.cells[c];
       const auto w = qs::openings(path_.edges()[c], trial.jumps);
@@ -402,7 +427,6 @@ class QuasiStatic::Solver {
     }
     trial.bore = qs::fluid_in_bore(equations_, trial);
     trial.injected += rate * dt;
-    qs::account(equations_, state_, trial, dt, rate);
   }
 
   QuasiStaticRow commit(qs::State trial, double until, double dt, double rate, int iterations) {
@@ -426,12 +450,139 @@ class QuasiStatic::Solver {
     return row;
   }
 
+  void take_back(std::size_t edges) {
+    path_.truncate(edges);
+    laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(edges), laws_.end());
+    ++state_.rejected;
+  }
+
+  // A step as short as this one without an equilibrium: the tips would be so fast that inertia counts.
+  bool snaps(double dt) const {
+    if (!scene_.control.hand_over) return false;
+    double shortest_edge = std::numeric_limits<double>::infinity();
+    for (const qs::Tip& tip : state_.tips)
+      shortest_edge = std::min(shortest_edge, path_.edges()[at(tip.cell)].length);
+    const double rayleigh = 0.92 * std::sqrt(bulk_.stiffness(0).c66 / bulk_.density(0));
+    return scene_.control.edges_per_step * shortest_edge > fast * rayleigh * dt;
+  }
+
+  // At rest again if the step that there was no equilibrium for has one now, near the moving state and
+  // without growth; else explicit steps.
+  QuasiStaticRow go_on_moving(double end) {
+    const qs::Motion& motion = state_.motion;
+    if (motion.kinetic < calm * (state_.energies.radiated - motion.radiated)) {
+      if (std::optional<QuasiStaticRow> row = come_to_rest(end)) return *std::move(row);
+    }
+    return move(end);
+  }
+
+  std::optional<QuasiStaticRow> come_to_rest(double end) {
+    const double left = std::min(end, scene_.pump.next_change(state_.time)) - state_.time;
+    const double dt = std::min(state_.motion.tried, left), until = dt < left ? state_.time + dt : state_.time + left;
+    const double rate = scene_.pump.volume(state_.time, until) / dt;
+    const std::size_t edges = path_.edges().size();
+    const qs::State moving = state_;
+    rock_.follow(path_.unknowns());
+    start_rest();
+    qs::State trial = state_;
+    trial.well_before = state_.well_pressure;
+    const int iterations = advance(trial, dt, rate);
+    if (iterations < 0 || path_.edges().size() > edges || !near(trial)) {
+      take_back(edges);
+      state_ = moving;
+      return std::nullopt;
+    }
+    finish(trial, until, dt, rate);
+    trial.step = dt;
+    return commit(std::move(trial), until, dt, rate, iterations);
+  }
+
+  // One length of explicit steps, that ends at changes of the schedule.
+  QuasiStaticRow move(double end) {
+    const double stop_at = std::min(end, scene_.pump.next_change(state_.time));
+    const std::size_t edges = path_.edges().size();
+    for (double share = 1.0; share > shortest; share *= 0.5) {
+      qs::State trial = state_;
+      trial.motion.place.clear();
+      trial.motion.velocity.clear();
+      const int iterations = steps_moving(trial, share, stop_at);
+      if (iterations < 0) {
+        take_back(edges);
+        continue;
+      }
+      trial.step = trial.motion.tried;
+      const double until = trial.time, dt = until - state_.time;
+      return commit(std::move(trial), until, dt, scene_.pump.volume(state_.time, until) / dt, iterations);
+    }
+    stop(shortest);
+  }
+
+  // @param share of the stable step @return iterations of the last one; below 0: of one that does not converge
+  int steps_moving(qs::State& trial, double share, double stop_at) {
+    const std::size_t edges = path_.edges().size();
+    qs::Dynamics dynamics(equations_, state_);
+    equations_.moving = dynamics_ = &dynamics;
+    int iterations = 0;
+    try {
+      dynamics.set_faces(qs::face_forces(equations_, trial), 0);
+      for (int i = 0; i < steps_in_row && trial.time < stop_at && iterations >= 0; ++i)
+        iterations = step_moving(trial, share * dynamics.stable_step(), stop_at);
+      if (iterations >= 0) {
+        dynamics.find_forces(trial);
+        dynamics.give_back(trial);
+        trial.energies.radiated = trial.motion.radiated + trial.motion.damped + trial.motion.kinetic;
+        qs::account_kept(equations_, state_, trial);
+      }
+    } catch (const NumericalError&) {  // the path has come to its end
+      equations_.moving = dynamics_ = nullptr;
+      take_back(edges);
+      throw;
+    }
+    equations_.moving = dynamics_ = nullptr;
+    return iterations;
+  }
+
+  int step_moving(qs::State& trial, double stable, double stop_at) {
+    const double left = stop_at - trial.time, dt = std::min(stable, left);
+    const double until = dt < left ? trial.time + dt : stop_at;
+    const double rate = scene_.pump.volume(trial.time, until) / dt;
+    const qs::State before = trial;
+    trial.well_before = trial.well_pressure;
+    dynamics_->predict(trial, dt);
+    const int iterations = advance(trial, dt, rate);
+    if (iterations < 0) return iterations;
+    dynamics_->move(trial);
+    finish_cells(trial, until, dt, rate);
+    qs::account_flow(equations_, before, trial, dt, rate);
+    trial.time = until;
+    ++trial.motion.steps;
+    return iterations;
+  }
+
+  // The state in motion as one at rest, with the same jumps and pressures.
+  void start_rest() {
+    qs::account_rest(equations_, state_);
+    state_.motion = {};
+  }
+
+  bool near(const qs::State& other) const {
+    double off = 0.0, all = 0.0;
+    for (std::size_t k = 0; k < state_.jumps.size(); ++k) {
+      off += std::pow(other.jumps[k] - state_.jumps[k], 2);
+      all += std::pow(state_.jumps[k], 2);
+    }
+    const double pressure = state_.well_pressure - scene_.pore_pressure;
+    return off <= close_by * close_by * all &&
+           std::abs(other.well_pressure - state_.well_pressure) <= close_by * std::abs(pressure);
+  }
+
   [[noreturn]] void stop(double dt) const {
     throw NumericalError(
         fmt::format("quasi-static stage: no step converges at {:g} s (tried down to {:.1e} s, well pressure "
-                    "{:.4g} MPa); the "
-                    "fracture may be about to snap: give the well an impedance, or the fluid a viscosity",
-                    state_.time, dt, state_.well_pressure * 1e-6));
+                    "{:.4g} MPa); the fracture may be about to snap: give the well an impedance, or the fluid "
+                    "a viscosity{}",
+                    state_.time, dt, state_.well_pressure * 1e-6,
+                    scene_.control.hand_over ? "" : ", or allow run.hand_over"));
   }
 
   QuasiStaticScene scene_;
@@ -443,7 +594,8 @@ class QuasiStatic::Solver {
   std::optional<MatrixDiffusion> matrix_;
   qs::Equations equations_;
   qs::State state_;
-  int spent_ = 0;  // iterations of the last attempt at a step
+  int spent_ = 0;                    // iterations of the last attempt at a step
+  qs::Dynamics* dynamics_ = nullptr;  // during explicit steps
 };
 
 QuasiStatic::QuasiStatic(QuasiStaticScene scene) : solver_(std::make_unique<Solver>(std::move(scene))) {

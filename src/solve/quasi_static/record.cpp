@@ -134,6 +134,7 @@ std::vector<FractureCell> cells_of(const Equations& e, const State& state) {
 }
 
 std::vector<Vec2> corners_of(const Equations& e, const State& state) {
+  if (state.motion.moves()) return state.motion.place;
   const Mesh& mesh = *e.scene.mesh;
   const std::vector<Vec2> u = displacement(e, state);
   std::vector<Vec2> corners;
