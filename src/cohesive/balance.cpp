@@ -179,7 +179,7 @@ std::vector<Index> intact_elements_at(const State& state, std::span<const Partin
 
 // Sets the offsets with which an element bears end forces where it is now. Where the law is curved the
 // middle does not bear the mean of the ends: a few corrections of the end tractions settle that.
-// False if that is more than a hundredth beyond its elastic branch: it bears the most it can there.
+// False if that is beyond its elastic branch: it bears the most it can there.
 bool Cohesive::bear(State& state, Index e, const EndForces& target) const {
   CohesiveElements& c = state.cohesive;
   const CohesiveMaterial m = material(state, e);
@@ -192,16 +192,14 @@ bool Cohesive::bear(State& state, Index e, const EndForces& target) const {
   const auto end_traction = [&](Vec2 own, Vec2 other) { return (2.0 / length) * (2.0 * own - other); };
   Vec2 ask0 = end_traction(target.end0, target.end1);
   Vec2 ask1 = end_traction(target.end1, target.end0);
-  bool capped = false;
-  double excess = 0.0;
+  bool over = false;
   std::array<double, 4> separations{};
   for (int pass = 0; pass < 60; ++pass) {
     const auto place = [&](Vec2 traction, double& opening, double& slip) {
       double normal = dot(traction, n);
       double shear = dot(traction, t);
       const double strength = m.cohesion - std::min(normal, 0.0) * m.tan_friction;
-      capped |= normal > tensile_limit || std::abs(shear) > 0.999 * strength;
-      excess = std::max({excess, normal / m.tensile_strength - 1.0, std::abs(shear) / strength - 1.0});
+      if (normal > tensile_limit || std::abs(shear) > 0.999 * strength) over = true;
       normal = std::min(normal, tensile_limit);
       shear = std::clamp(shear, -0.999 * strength, 0.999 * strength);
       opening = law_->elastic_opening(m, length, normal);
@@ -209,7 +207,7 @@ bool Cohesive::bear(State& state, Index e, const EndForces& target) const {
     };
     place(ask0, separations[0], separations[1]);
     place(ask1, separations[2], separations[3]);
-    if (capped) break;
+    if (over) break;
     const auto traction = [&](double o, double s) {
       const ElasticTraction q = elastic_traction(m.penalty / length, law_->curvature(), m.tensile_strength,
                                                  m.cohesion, m.tan_friction, o, s);
@@ -228,7 +226,7 @@ bool Cohesive::bear(State& state, Index e, const EndForces& target) const {
   }
   c.offset[at(e)] = {separations[0] - geometry.opening0, separations[1] - geometry.slip0,
                      separations[2] - geometry.opening1, separations[3] - geometry.slip1};
-  return excess <= 0.01;
+  return !over;
 }
 
 std::vector<Index> Cohesive::balance(State& state, std::span<const Vec2> corner_forces) const {

@@ -126,7 +126,7 @@ struct Case {
     std::string law = "benzeggagh_kenane";  ///< a registered law; y_geo: "evans_marathe"
     std::string calibration = "exact";      ///< "exact" (dissipates G) or "y_geo" (softening length 3G/f)
     std::string insertion = "on_demand";  ///< "on_demand", "all" edges from the start, or "none": see damage
-    double threshold = 1.0;               ///< of its strength, where an edge gets its element on demand [-]
+    double threshold = 0.7;               ///< of its strength, where an edge gets its element on demand [-]
     std::string compliance = "kept";      ///< of the elements: "kept", or "compensated" by stiffer triangles
     double mixed_mode_exponent = 4.0;     ///< of benzeggagh_kenane: how late sliding costs more [-]
     double penalty = 0.0;                 ///< stiffness times edge length [Pa]; 0: 20 Young's moduli

@@ -26,7 +26,7 @@ namespace crackle {
 /// Which edges carry a cohesive element: all from the start, or those that come near their strength.
 struct InsertionPolicy {
   bool on_demand = false;
-  double threshold = 1.0;  ///< of the strength (Cohesive::utilisation) at which an edge gets its element
+  double threshold = 0.7;  ///< of the strength (Cohesive::utilisation) at which an edge gets its element
   double step = 0.75;      ///< time step over the tied rock's, which leaves room for the elements' penalty
 };
 

@@ -19,7 +19,6 @@ Scene pulled_bar(double share) {
   scene.law = find_law("linear");
   scene.cohesive = granite::cohesive();
   scene.insertion.on_demand = true;
-  scene.insertion.threshold = 0.7;
   scene.stress = {share * scene.cohesive.tensile_strength, 0.0, 0.0};
   return scene;
 }
