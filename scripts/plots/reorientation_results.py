@@ -85,7 +85,8 @@ def row_of(name, run, known):
     theory = between(known, float(beta), ratio)
     notch, parts = run.case["notches"][0], results_page.broken(run)
     paths = [path_from(parts, (notch["x2"], notch["y2"]), sign) for sign in (1.0, -1.0)]
-    row = {"run": name, "method": method, "beta_deg": int(beta), "R_wanted": float(wanted), "R": ratio}
+    row = {"run": name, "method": method, "beta_deg": int(beta), "edge_mm": run.case["mesh"]["size_fine"] * 1e3,
+           "R_wanted": float(wanted), "R": ratio}
     for k in (1, 2):
         found = [at_arc(path, float(k)) for path in paths]
         for tip, (direction, y) in enumerate(found, 1):
@@ -100,27 +101,38 @@ def table(rows):
     for r in rows:
         off = [r[f"y_2_tip{t}"] - r["reference_y_2"] for t in (1, 2)]
         turn = [r[f"dir_2_tip{t}_deg"] - r["reference_dir_2_deg"] for t in (1, 2)]
-        lines.append([f"{gallery.METHODS[r['method']]}, {r['beta_deg']}°", f"{r['R']:.2f}",
+        lines.append([f"{gallery.METHODS[r['method']]}, {r['edge_mm']:.2g} mm, {r['beta_deg']}°", f"{r['R']:.2f}",
                       ", ".join(gallery.number(r[f"y_2_tip{t}"], ".2f") for t in (1, 2)), f"{r['reference_y_2']:.2f}",
                       ", ".join(gallery.number(o, "+.2f") for o in off),
                       ", ".join(gallery.number(r[f"dir_2_tip{t}_deg"], ".0f") for t in (1, 2)), f"{r['reference_dir_2_deg']:.0f}",
                       ", ".join(gallery.number(t, "+.0f") for t in turn), f"{r['energy_residual_max']:.1e}"])
-    return results_page.markdown(["method, angle of the notch", "R", "y(2 a0)/a0, both tips", "theory",
+    return results_page.markdown(["method, edges, angle of the notch", "R", "y(2 a0)/a0, both tips", "theory",
                                   f"off (gate {GATE_Y})", "direction at 2 a0 [°]", "theory", f"off (gate {GATE_DIRECTION:.0f}°)",
                                   "energy residual"], lines)
 
 
 def means(rows):
-    """Over both tips of all meshes of edges on demand."""
+    """Over both tips of all meshes of edges on demand, by the size of edges."""
     lines = []
-    for beta, wanted in sorted({(r["beta_deg"], r["R_wanted"]) for r in rows}):
-        mine = [r for r in rows if r["method"] == "demand" and (r["beta_deg"], r["R_wanted"]) == (beta, wanted)]
-        off = [r[f"y_2_tip{t}"] - r["reference_y_2"] for r in mine for t in (1, 2)]
-        turn = [r[f"dir_2_tip{t}_deg"] - r["reference_dir_2_deg"] for r in mine for t in (1, 2)]
-        lines.append([f"{beta}°, R = {wanted:g} wanted", f"{np.mean(off):+.2f} ± {np.std(off, ddof=1):.2f}",
-                      f"{np.mean(turn):+.1f} ± {np.std(turn, ddof=1):.1f}"])
+    for size in sorted({r["edge_mm"] for r in rows if r["method"] == "demand"}):
+        for beta, wanted in sorted({(r["beta_deg"], r["R_wanted"]) for r in rows}):
+            mine = [r for r in rows if r["method"] == "demand" and r["edge_mm"] == size
+                    and (r["beta_deg"], r["R_wanted"]) == (beta, wanted)]
+            off = [r[f"y_2_tip{t}"] - r["reference_y_2"] for r in mine for t in (1, 2)]
+            turn = [r[f"dir_2_tip{t}_deg"] - r["reference_dir_2_deg"] for r in mine for t in (1, 2)]
+            lines.append([f"{size:.2g} mm, {beta}°, R = {wanted:g} wanted", f"{np.mean(off):+.2f} ± {np.std(off, ddof=1):.2f}",
+                          f"{np.mean(turn):+.1f} ± {np.std(turn, ddof=1):.1f}"])
     return results_page.markdown([f"edges on demand, mean and deviation over both tips of {len(mine)} meshes",
                                   f"y(2 a0)/a0, off (gate {GATE_Y})", f"direction, off [°] (gate {GATE_DIRECTION:.0f})"], lines)
+
+
+def chosen(rows, beta, wanted):
+    """{run: (method, label)}: three meshes of the finest edges on demand, one of the other methods."""
+    named = {r["run"]: r for r in rows}
+    keys = [f"demand-{beta}-{wanted}-{seed}-3.3mm" for seed in (1, 2, 3)] + [f"{m}-{beta}-{wanted}" for m in ("all", "damage")]
+    first = {keys[0], *keys[3:]}
+    return {key: (named[key]["method"], f"{gallery.METHODS[named[key]['method']]}, R = {named[key]['R']:.2f}" if key in first
+                  else None) for key in keys if key in named}
 
 
 def draw(paths, rows, known, path):
@@ -129,18 +141,14 @@ def draw(paths, rows, known, path):
         for axes, wanted in zip(line, ("1.5", "2", "3")):
             tip = np.array([math.cos(math.radians(beta)), math.sin(math.radians(beta))])
             axes.plot([-tip[0], tip[0]], [-tip[1], tip[1]], color=look.INK, linewidth=2.4)
-            for method, name in gallery.METHODS.items():
-                key = f"{method}-{beta}-{wanted}"
-                if key not in paths:
-                    continue
-                ratio = next(r["R"] for r in rows if r["run"] == key)
+            for key, (method, label) in chosen(rows, beta, wanted).items():
                 for i, (_, x, y) in enumerate(paths[key]):
                     axes.plot(x, y, marker=gallery.MARKERS[method], markersize=2.5, linewidth=0.9,
                               linestyle="-" if i == 0 else ":", color=gallery.COLORS[method],
-                              label=f"{name}, R = {ratio:.2f}" if i == 0 else None)
-                if method == "demand":
-                    _, x, y = reference_path(between(known, float(beta), ratio))
-                    axes.plot(x, y, color="#2a7f62", linewidth=3.0, alpha=0.45, label=f"theory, R = {ratio:.2f}")
+                              label=label if i == 0 else None)
+            ratio = next(r["R"] for r in rows if r["run"] == f"demand-{beta}-{wanted}-1-3.3mm")
+            _, x, y = reference_path(between(known, float(beta), ratio))
+            axes.plot(x, y, color="#2a7f62", linewidth=3.0, alpha=0.45, label=f"theory, R = {ratio:.2f}")
             axes.set_title(f"notch at {beta}°, R = {wanted} wanted", fontsize=9, loc="left")
             axes.set_aspect("equal")
             axes.set_xlim(-0.2, 3.2)
