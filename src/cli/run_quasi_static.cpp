@@ -250,17 +250,15 @@ class FieldTimeRun {
 
   void tell_hand_over(const quasi_static::Motion& before, const quasi_static::Motion& after) {
     if (!before.moves() && after.moves()) {
-      say(
-          fmt::format("{:.6g} s, {:.3f} MPa: the fracture snaps, on by explicit steps of {:.2g} s",
+      say(fmt::format("{:.6g} s, {:.3f} MPa: the fracture snaps, on by explicit steps of {:.2g} s",
                       after.begin, 1e-6 * row_.well_pressure, row_.step / static_cast<double>(after.steps)));
     } else if (before.moves() && !after.moves()) {
       const double wings = 2.0 / modelled_halves(scene_);
-      say(
-          fmt::format("{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms by {} explicit steps: the "
-                      "fracture has grown by {:.3g} m (both wings), {:.3g} J/m went into waves",
-                      row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - before.begin), before.steps,
-                      wings * (row_.damaged_length - before.length),
-                      wings * (row_.energies.radiated - before.radiated)));
+      say(fmt::format(
+          "{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms by {} explicit steps: the "
+          "fracture has grown by {:.3g} m (both wings), {:.3g} J/m went into waves",
+          row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - before.begin), before.steps,
+          wings * (row_.damaged_length - before.length), wings * (row_.energies.radiated - before.radiated)));
     }
   }
 
