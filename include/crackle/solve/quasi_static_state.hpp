@@ -69,7 +69,7 @@ struct Energies {
   double residual = 0.0;     ///< what does not add up, over the work of the pump [-]
 };
 
-/// Of the rock where the fracture snaps (dynamics.hpp in src).
+/// Of the rock where the fracture snaps (dynamics.hpp in src); at rest, what is known of the last one.
 struct Motion {
   std::vector<Vec2> place;     ///< displacement of every corner of every triangle [m]; empty: at rest
   std::vector<Vec2> velocity;  ///< half a step before the time [m/s]

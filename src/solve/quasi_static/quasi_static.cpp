@@ -553,7 +553,8 @@ class QuasiStatic::Solver {
   // The state in motion as one at rest, with the same jumps and pressures.
   void start_rest() {
     qs::account_rest(equations_, state_);
-    state_.motion = {};
+    state_.motion.place.clear();
+    state_.motion.velocity.clear();
   }
 
   bool near(const qs::State& other) const {
