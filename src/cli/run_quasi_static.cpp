@@ -241,9 +241,10 @@ class FieldTimeRun {
       const double every = scene_.output.fields_every;
       memory_.next_frame += every * std::ceil((stage_->time() - memory_.next_frame) / every + 1e-12);
     }
-    const quasi_static::Motion before = stage_->state().motion;
+    const bool moved = stage_->state().motion.moves();
+    if (!moved) before_ = row_;
     row_ = stage_->step(scene_.run.end_time);
-    tell_hand_over(before, stage_->state().motion);
+    tell_hand_over(moved, stage_->state().motion.moves());
     folder_.append_field_time(history_row(*stage_, row_, scene_));
     memory_.mass_residual_max =
         std::max(memory_.mass_residual_max, std::abs(row_.mass_defect) / std::max(row_.injected, 1e-12));
@@ -251,19 +252,19 @@ class FieldTimeRun {
     tally_.residual(row_.energies.residual);
   }
 
-  void tell_hand_over(const quasi_static::Motion& before, const quasi_static::Motion& after) {
-    if (!before.moves() && after.moves()) {
-      say(
-          fmt::format("{:.6g} s, {:.3f} MPa: the fracture snaps, on by explicit steps of {:.2g} s",
-                      after.begin, 1e-6 * row_.well_pressure, row_.step / static_cast<double>(after.steps)));
-    } else if (before.moves() && !after.moves()) {
+  void tell_hand_over(bool moved, bool moves) {
+    const quasi_static::Motion& motion = stage_->state().motion;
+    if (!moved && moves) {
+      say(fmt::format("{:.6g} s, {:.3f} MPa: the fracture snaps, on by explicit steps of {:.2g} s",
+                      before_.time, 1e-6 * before_.well_pressure,
+                      row_.step / static_cast<double>(motion.steps)));
+    } else if (moved && !moves) {
       const double wings = 2.0 / modelled_halves(scene_);
-      say(
-          fmt::format("{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms by {} explicit steps: the "
-                      "fracture has grown by {:.3g} m (both wings), {:.3g} J/m went into waves",
-                      row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - before.begin), before.steps,
-                      wings * (row_.damaged_length - before.length),
-                      wings * (row_.energies.radiated - before.radiated)));
+      say(fmt::format("{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms: the fracture has grown by "
+                      "{:.3g} m (both wings), {:.3g} J/m went into waves",
+                      row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - motion.begin),
+                      wings * (row_.damaged_length - motion.length),
+                      wings * (row_.energies.radiated - motion.radiated)));
     }
   }
 
@@ -332,7 +333,7 @@ class FieldTimeRun {
   RunFolder& folder_;
   Status& status_;
   std::unique_ptr<QuasiStatic> stage_;
-  QuasiStaticRow row_;
+  QuasiStaticRow row_, before_;  // now; the last one at rest
   Tally tally_;
   FieldTimeMemory memory_;  // of the processes before this one
   std::string text_;        // of the resolved case

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* sigterm = "SIGTERM while it breaks or grows; resumed with 1 and 2 threads";
 constexpr const char* unusable = "no checkpoint that can be used";
@@ -230,6 +231,21 @@ TEST_F(Resume, LeavesTheSameBytesInFieldTime) {
   EXPECT_EQ(resume("parts").code, 0);
   expect_same_results(path("parts"), path("whole"));
   report_faults(sigterm, 2, Left::survived, "field time");
+}
+
+// In field time, amid the explicit steps of a snap.
+TEST_F(Resume, LeavesTheSameBytesAmidASnap) {
+  write("case.toml", "include = \"" + std::string(CRACKLE_SOURCE_DIR) +
+                         "/cases/granite_wellbore/smoke_field_time_snap.toml\"\n");
+  const std::vector<std::string> how{"--set", "run.end_time=48.92 s", "--set", "output.fields_every=48.9092 s"};
+  ASSERT_EQ(run("whole", how).code, 0);
+  EXPECT_THAT(read_text(path("whole/run.log")), HasSubstr("in equilibrium again"));
+  EXPECT_EQ(interrupted_run("parts", 1, how).code, 75);
+  const std::string log = read_text(path("parts/run.log"));
+  EXPECT_THAT(log, HasSubstr("the fracture snaps"));
+  EXPECT_THAT(log, Not(HasSubstr("in equilibrium again")));
+  EXPECT_EQ(resume("parts").code, 0);
+  expect_same_results(path("parts"), path("whole"));
 }
 
 // The mesh is in the checkpoint: the file of joints may be another by then.

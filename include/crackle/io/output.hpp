@@ -59,8 +59,8 @@ struct FieldTimeRow {
   double work_pump = 0.0, energy_well = 0.0, energy_entry = 0.0, energy_viscous = 0.0, energy_leaked = 0.0,
          energy_fluid = 0.0, energy_strain = 0.0, energy_confinement = 0.0, energy_faces = 0.0,
          energy_fracture = 0.0, energy_friction = 0.0, energy_radiated = 0.0;  ///< [J/m]
-  double energy_residual = 0.0;                         ///< [-]
-  int iterations = 0;                                   ///< of Newton
+  double energy_residual = 0.0;                                                ///< [-]
+  int iterations = 0;                                                          ///< of Newton
 };
 
 /// A named value per triangle or per fracture segment; components = 1, 2 or 3 (xx, yy, xy).

@@ -115,6 +115,7 @@ void members(Tip& t, V&& v) {
   v("wing", t.wing);
   v("cell", t.cell);
   v("place", t.place);
+  v("since", t.since);
 }
 
 template <class V>
@@ -142,6 +143,7 @@ void members(Motion& m, V&& v) {
   v("tried", m.tried);
   v("length", m.length);
   v("radiated", m.radiated);
+  v("fracture", m.fracture);
   v("damped", m.damped);
   v("kinetic", m.kinetic);
   v("steps", m.steps);

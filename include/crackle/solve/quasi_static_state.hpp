@@ -48,6 +48,8 @@ struct Tip {
   Index wing = -1;
   Index cell = -1;  ///< the last one
   Vec2 place;       ///< outer end of the smooth fracture [m]
+  /// When it took its last edge [s].
+  double since = -std::numeric_limits<double>::infinity();
 };
 
 /// Energies since the start [J/m], fluid's relative to pore pressure (ledger.hpp in src).
@@ -67,7 +69,7 @@ struct Energies {
   double residual = 0.0;     ///< what does not add up, over the work of the pump [-]
 };
 
-/// Of the rock where the fracture snaps (dynamics.hpp in src).
+/// Of the rock where the fracture snaps (dynamics.hpp in src); at rest, what is known of the last one.
 struct Motion {
   std::vector<Vec2> place;     ///< displacement of every corner of every triangle [m]; empty: at rest
   std::vector<Vec2> velocity;  ///< half a step before the time [m/s]
@@ -75,6 +77,7 @@ struct Motion {
   double tried = 0.0;          ///< step for which there was no equilibrium [s]
   double length = 0.0;         ///< damaged before [m]
   double radiated = 0.0;       ///< before [J/m]
+  double fracture = 0.0;       ///< before [J/m]
   double damped = 0.0;         ///< since the beginning [J/m]
   double kinetic = 0.0;        ///< now [J/m]
   std::int64_t steps = 0;      ///< since the beginning

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double safety = 0.8;
 constexpr double damping_ratio = 0.1;
-// α at the boundary is this many times the speed of waves over the depth of what absorbs them: with its square
-// growth a fifth of a wave comes back.
+// α at the boundary is this many times the speed of waves over the depth of what absorbs them: with its
+// square growth a fifth of a wave comes back.
 constexpr double absorption = 5.0;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -38,6 +38,7 @@ Motion set_in_motion(const Equations& e, const State& state) {
   motion.begin = state.time;
   motion.length = row_of(e, state).damaged_length;
   motion.radiated = state.energies.radiated;
+  motion.fracture = state.energies.fracture;
   return motion;
 }
 
@@ -203,8 +204,8 @@ void Dynamics::take_path() {
 void Dynamics::bound_step() {
   double highest = 0.0;
   for (std::size_t n = 0; n < mass_.size(); ++n) highest = std::max(highest, rows_[n] / mass_[n]);
-  stable_step_ = safety * 2.0 / std::sqrt(highest) *
-                 (std::sqrt(1.0 + damping_ratio * damping_ratio) - damping_ratio);
+  stable_step_ =
+      safety * 2.0 / std::sqrt(highest) * (std::sqrt(1.0 + damping_ratio * damping_ratio) - damping_ratio);
 }
 
 void Dynamics::follow_path(const State& state) {
@@ -238,8 +239,8 @@ void Dynamics::find_forces(const State& state) {
     const std::size_t a = at(node[0]), b = at(node[1]), c = at(node[2]);
     const Sym2 strain = strain_of(element, {place_[a], place_[b], place_[c]});
     const Sym2 stress = element.stiffness.stress(strain);
-    const Sym2 damped =
-        element.beta * element.stiffness.stress(strain_of(element, {velocity_[a], velocity_[b], velocity_[c]}));
+    const Sym2 damped = element.beta * element.stiffness.stress(
+                                           strain_of(element, {velocity_[a], velocity_[b], velocity_[c]}));
     strain_ += 0.5 * (stress.xx * strain.xx + stress.yy * strain.yy + 2.0 * stress.xy * strain.xy);
     for (std::size_t i = 0; i < 3; ++i) {
       force_[at(node[i])] -= stress * element.gradient[i];
@@ -265,8 +266,8 @@ void Dynamics::predict(const State& state, double dt) {
   target_.resize(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const std::size_t a = at(pairs_[k].minus), b = at(pairs_[k].plus);
-    target_[k] = dot(place_[b] - place_[a] + dt * (predicted_[b] - predicted_[a]),
-                     e_.path.unknowns()[k].direction);
+    target_[k] =
+        dot(place_[b] - place_[a] + dt * (predicted_[b] - predicted_[a]), e_.path.unknowns()[k].direction);
   }
   set_bore();
 }
@@ -297,8 +298,9 @@ void Dynamics::set_bore() {
     for (std::size_t k = 0; k < n; ++k) {
       const Pair& pair = pairs_[at(block.unknowns[k])];
       const Vec2 d = e_.path.unknowns()[at(block.unknowns[k])].direction;
-      const double moved = dot(wall[at(pair.plus)], free_part(d, held_[at(pair.plus)])) / mass_[at(pair.plus)] -
-                           dot(wall[at(pair.minus)], free_part(d, held_[at(pair.minus)])) / mass_[at(pair.minus)];
+      const double moved =
+          dot(wall[at(pair.plus)], free_part(d, held_[at(pair.plus)])) / mass_[at(pair.plus)] -
+          dot(wall[at(pair.minus)], free_part(d, held_[at(pair.minus)])) / mass_[at(pair.minus)];
       if (moved == 0.0) continue;
       for (std::size_t l = 0; l < n; ++l)
         bore_by_jump_[at(block.unknowns[l])] += moved * block.inertia[k * n + l];
@@ -357,9 +359,9 @@ double Dynamics::kinetic_energy() const {
   for (std::size_t n = 0; n < place_.size(); ++n)
     twice += dot(velocity_[n], mass_[n] * velocity_[n] + dt_ * force_[n]);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    twice += dt_ * faces_[k] *
-             dot(velocity_[at(pairs_[k].plus)] - velocity_[at(pairs_[k].minus)],
-                 e_.path.unknowns()[k].direction);
+    twice +=
+        dt_ * faces_[k] *
+        dot(velocity_[at(pairs_[k].plus)] - velocity_[at(pairs_[k].minus)], e_.path.unknowns()[k].direction);
   }
   return 0.5 * twice;
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Explicit steps of the rock where a fracture snaps: where no equilibrium is near. Mesh, path, laws, fluid and
-// well are those of the stage, and so are the equations of a step (newton.hpp), in which inertia stands for
-// the condensed rock. Displacements x of the nodes, of a sector each on the path:
+// Explicit steps of the rock where a fracture snaps: where no equilibrium is near. Mesh, path, laws, fluid
+// and well are those of the stage, and so are the equations of a step (newton.hpp), in which inertia stands
+// for the condensed rock. Displacements x of the nodes, of a sector each on the path:
 //   M (v⁺ − v)/Δt = −K x − C v + loads + Lᵀ g,   x⁺ = x + Δt v⁺,   δ = L x
 // Rock, damping and wellbore are those at the beginning of the step (central differences), forces g of faces
 // and fluid in them those at its end: with x* where the nodes would come without them, the jumps obey
 //   (L M⁻¹ Lᵀ)⁻¹ (δ⁺ − L x*)/Δt² = g(δ⁺, p⁺)
-// a small block for every vertex on the path. So only the rock bounds the step, neither stiff bonds nor fluid.
-// C: every triangle has the viscosity β of a tenth of its own highest frequency's critical damping, so that
-// waves die where the mesh gets too coarse for them; and α M, which grows in the outer half of the domain, takes
-// up those that get there.
+// a small block for every vertex on the path. So only the rock bounds the step, neither stiff bonds nor
+// fluid. C: every triangle has the viscosity β of a tenth of its own highest frequency's critical damping, so
+// that waves die where the mesh gets too coarse for them; and α M, which grows in the outer half of the
+// domain, takes up those that get there.
 #pragma once
 
 #include <vector>
@@ -91,10 +91,10 @@ class Dynamics {
   std::ptrdiff_t vertices_;
   std::vector<Element> elements_;
   std::vector<Index> node_of_corner_;
-  std::vector<Vec2> place_, velocity_, before_;     // of nodes: displacement, velocity, that of before
-  std::vector<Vec2> force_, damping_, predicted_;   // [N/m]; velocity without faces
-  std::vector<double> mass_, rows_;                 // [kg/m], stiffness by Gershgorin [N/m2]
-  std::vector<double> absorption_;                  // α [1/s]
+  std::vector<Vec2> place_, velocity_, before_;    // of nodes: displacement, velocity, that of before
+  std::vector<Vec2> force_, damping_, predicted_;  // [N/m]; velocity without faces
+  std::vector<double> mass_, rows_;                // [kg/m], stiffness by Gershgorin [N/m2]
+  std::vector<double> absorption_;                 // α [1/s]
   std::vector<std::uint8_t> held_;
   std::vector<Pair> pairs_;  // per unknown
   std::vector<Block> blocks_;

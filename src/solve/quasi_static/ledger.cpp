@@ -126,9 +126,10 @@ Energies kept(const Equations& e, const State& state) {
 }
 
 // What the work of the pump becomes.
-constexpr std::array parts{&Energies::well,     &Energies::entry,    &Energies::viscous,     &Energies::leaked,
-                           &Energies::fluid,    &Energies::strain,   &Energies::confinement, &Energies::faces,
-                           &Energies::fracture, &Energies::friction, &Energies::radiated};
+constexpr std::array parts{&Energies::well,        &Energies::entry,   &Energies::viscous,
+                           &Energies::leaked,      &Energies::fluid,   &Energies::strain,
+                           &Energies::confinement, &Energies::faces,   &Energies::fracture,
+                           &Energies::friction,    &Energies::radiated};
 
 double left(const Energies& sum) {
   double rest = sum.pumped;

@@ -32,11 +32,11 @@ constexpr double damage_at_tip = 0.25;
 constexpr int most_cuts = 6;  // of a step whose energy does not add up
 
 // Hand-over to explicit steps and back:
-constexpr double fast = 0.1;        // of the Rayleigh speed: a tip that is faster snaps
-constexpr int steps_in_row = 200;   // explicit ones between two rows
-constexpr double calm = 0.01;       // kinetic energy over what went into motion
-constexpr double close_by = 0.02;   // change of pressure and jumps as equilibrium takes over
-constexpr double shortest = 1e-3;   // share of the stable step
+constexpr double fast = 0.1;       // of the Rayleigh speed: a tip that is faster snaps
+constexpr int steps_in_row = 200;  // explicit ones between two rows
+constexpr double calm = 0.01;      // kinetic energy over what was torn and went into motion
+constexpr double close_by = 0.02;  // change of pressure and jumps as equilibrium takes over
+constexpr double shortest = 1e-3;  // share of the stable step
 
 void check(const QuasiStaticScene& scene) {
   const auto require = [](bool holds, const char* what) {
@@ -103,8 +103,14 @@ class QuasiStatic::Solver {
     if (!(end > state_.time)) throw CaseError("quasi-static stage: a step has to end later than it starts");
     if (state_.motion.moves()) return go_on_moving(end);
     double shorter = 0.5;
+    ran_away_ = false;
     int too_long = 0;
     for (double dt = choose(end);; dt *= shorter) {
+      if (scene_.control.hand_over && (ran_away_ || dt < scene_.control.smallest)) {
+        state_.motion = qs::set_in_motion(equations_, state_);
+        state_.motion.tried = racing_step();
+        return move(end);
+      }
       if (dt < scene_.control.smallest) stop(dt);
       const std::size_t edges = path_.edges().size();
       qs::State trial = state_;
@@ -125,11 +131,6 @@ class QuasiStatic::Solver {
       shorter = cut ? std::clamp(suits, 0.1, 0.5) : 0.5;
       if (iterations < 0 || cut) {
         take_back(edges);
-        if (iterations < 0 && snaps(dt)) {
-          state_.motion = qs::set_in_motion(equations_, state_);
-          state_.motion.tried = dt;
-          return move(end);
-        }
         continue;
       }
       trial.step = std::max(dt * std::clamp(suits, 0.5, scene_.control.growth), scene_.control.smallest);
@@ -244,7 +245,8 @@ class QuasiStatic::Solver {
 
   void start(Index wing) {
     const Wing& w = scene_.wings[at(wing)];
-    qs::Tip tip{wing, -1, {}};
+    qs::Tip tip;
+    tip.wing = wing;
     for (std::size_t i = 0; i <= w.open; ++i) {
       const Index parent = tip.cell;
       extend(state_, tip, i);
@@ -308,8 +310,10 @@ class QuasiStatic::Solver {
   int advance(qs::State& trial, double dt, double rate) {
     int iterations = spent_ = 0;
     std::vector<int> grown;
+    std::vector<double> far;  // in this step [m]
     while (true) {
       grown.resize(trial.tips.size(), 0);
+      far.resize(trial.tips.size(), 0.0);
       if (!dynamics_) rock_.follow(path_.unknowns());
       const qs::NewtonResult result = qs::solve(equations_, trial, dt, rate);
       iterations += result.iterations;
@@ -319,10 +323,20 @@ class QuasiStatic::Solver {
       for (std::size_t t = 0; t < grown.size(); ++t) {
         if (!opens(trial, trial.tips[t])) continue;
         if (++grown[t] > scene_.control.edges_per_step) return -1;
+        far[t] += path_.edges()[at(trial.tips[t].cell)].length;
+        if (!dynamics_ && scene_.control.hand_over &&
+            far[t] > fast_tip() * (trial.time + dt - trial.tips[t].since)) {
+          ran_away_ = true;
+          return -1;
+        }
         grow(trial, trial.tips[t]);
         changed = true;
       }
-      if (!changed) return iterations;
+      if (changed) continue;
+      for (std::size_t t = 0; t < trial.tips.size(); ++t) {
+        if (grown[t] > 0) trial.tips[t].since = trial.time + dt;
+      }
+      return iterations;
     }
   }
 
@@ -456,21 +470,23 @@ class QuasiStatic::Solver {
     ++state_.rejected;
   }
 
-  // A step as short as this one without an equilibrium: the tips would be so fast that inertia counts.
-  bool snaps(double dt) const {
-    if (!scene_.control.hand_over) return false;
+  // A tip as fast as this [m/s] makes inertia count.
+  double fast_tip() const { return fast * 0.92 * std::sqrt(bulk_.stiffness(0).c66 / bulk_.density(0)); }
+  // As long as as many edges as a tip may take in one step would last at that speed [s].
+  double racing_step() const {
     double shortest_edge = std::numeric_limits<double>::infinity();
     for (const qs::Tip& tip : state_.tips)
       shortest_edge = std::min(shortest_edge, path_.edges()[at(tip.cell)].length);
-    const double rayleigh = 0.92 * std::sqrt(bulk_.stiffness(0).c66 / bulk_.density(0));
-    return scene_.control.edges_per_step * shortest_edge > fast * rayleigh * dt;
+    return scene_.control.edges_per_step * shortest_edge / fast_tip();
   }
 
   // At rest again if the step that there was no equilibrium for has one now, near the moving state and
   // without growth; else explicit steps.
   QuasiStaticRow go_on_moving(double end) {
     const qs::Motion& motion = state_.motion;
-    if (motion.kinetic < calm * (state_.energies.radiated - motion.radiated)) {
+    const double released =
+        state_.energies.radiated - motion.radiated + state_.energies.fracture - motion.fracture;
+    if (motion.kinetic < calm * released) {
       if (std::optional<QuasiStaticRow> row = come_to_rest(end)) return *std::move(row);
     }
     return move(end);
@@ -478,7 +494,8 @@ class QuasiStatic::Solver {
 
   std::optional<QuasiStaticRow> come_to_rest(double end) {
     const double left = std::min(end, scene_.pump.next_change(state_.time)) - state_.time;
-    const double dt = std::min(state_.motion.tried, left), until = dt < left ? state_.time + dt : state_.time + left;
+    const double dt = std::min(state_.motion.tried, left),
+                 until = dt < left ? state_.time + dt : state_.time + left;
     const double rate = scene_.pump.volume(state_.time, until) / dt;
     const std::size_t edges = path_.edges().size();
     const qs::State moving = state_;
@@ -517,7 +534,8 @@ class QuasiStatic::Solver {
     stop(shortest);
   }
 
-  // @param share of the stable step @return iterations of the last one; below 0: of one that does not converge
+  // @param share of the stable step @return iterations of the last one; below 0: of one that does not
+  // converge
   int steps_moving(qs::State& trial, double share, double stop_at) {
     const std::size_t edges = path_.edges().size();
     qs::Dynamics dynamics(equations_, state_);
@@ -562,7 +580,8 @@ class QuasiStatic::Solver {
   // The state in motion as one at rest, with the same jumps and pressures.
   void start_rest() {
     qs::account_rest(equations_, state_);
-    state_.motion = {};
+    state_.motion.place.clear();
+    state_.motion.velocity.clear();
   }
 
   bool near(const qs::State& other) const {
@@ -577,12 +596,12 @@ class QuasiStatic::Solver {
   }
 
   [[noreturn]] void stop(double dt) const {
-    throw NumericalError(
-        fmt::format("quasi-static stage: no step converges at {:g} s (tried down to {:.1e} s, well pressure "
-                    "{:.4g} MPa); the fracture may be about to snap: give the well an impedance, or the fluid "
-                    "a viscosity{}",
-                    state_.time, dt, state_.well_pressure * 1e-6,
-                    scene_.control.hand_over ? "" : ", or allow run.hand_over"));
+    throw NumericalError(fmt::format(
+        "quasi-static stage: no step converges at {:g} s (tried down to {:.1e} s, well pressure "
+        "{:.4g} MPa); the fracture may be about to snap: give the well an impedance, or the fluid "
+        "a viscosity{}",
+        state_.time, dt, state_.well_pressure * 1e-6,
+        scene_.control.hand_over ? "" : ", or allow run.hand_over"));
   }
 
   QuasiStaticScene scene_;
@@ -594,7 +613,8 @@ class QuasiStatic::Solver {
   std::optional<MatrixDiffusion> matrix_;
   qs::Equations equations_;
   qs::State state_;
-  int spent_ = 0;                    // iterations of the last attempt at a step
+  int spent_ = 0;                     // iterations of the last attempt at a step
+  bool ran_away_ = false;             // it would have grown too fast
   qs::Dynamics* dynamics_ = nullptr;  // during explicit steps
 };
 

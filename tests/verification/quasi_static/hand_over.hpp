@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Griffith's crack that the fluid stored in a well drives on by itself (validation D5): it snaps from its notch,
-// goes too far, rests until the pump has made up for that, and grows on as theory says.
+// Griffith's crack that the fluid stored in a well drives on by itself (validation D5): it snaps from its
+// notch, goes too far, rests until the pump has made up for that, and grows on as theory says.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@
 
 namespace crackle::hand_over {
 
-constexpr double notch = 0.1, path = 0.6;   // half-length [m]
-constexpr double storage_ratio = 10.0;      // fluid stored by the well's pressure over that in the notch
-constexpr double ramp = 1.0;                // time to the snap [s]
+constexpr double notch = 0.1, path = 0.6;  // half-length [m]
+constexpr double storage_ratio = 10.0;     // fluid stored by the well's pressure over that in the notch
+constexpr double ramp = 1.0;               // time to the snap [s]
 
 inline double modulus() { return plane_strain_modulus(granite::stiffness()); }
 inline double fracture_energy() { return granite::cohesive().fracture_energy_mode1; }
@@ -92,15 +92,16 @@ inline Snap griffith(double step) {
       "snap at %.4f MPa (theory %.4f), %.2f ms from %.3f to %.3f m, %.4f MPa; mass %.1e, energy %.1e\n",
       1e-6 * before.well_pressure, 1e-6 * critical(notch), 1e3 * (after.time - before.time),
       before.elastic_length, after.elastic_length, 1e-6 * after.well_pressure, snap.mass, snap.energy);
-  accept(16,
-         text("hand-over and back, Griffith's crack of a well that stores, %.0f mm: p, length as it grows on; "
-              "lost in the snap over G per advance, of it by fracture; ledger; mass",
-              1e3 * step),
-         "2, 5 %; 1; printed; 1e-3; 1e-8",
-         text("%+.2f, %+.2f %%; %.3f, %.3f; %.1e; %.1e", 100 * snap.pressure, 100 * snap.length, snap.lost,
-              snap.torn, snap.energy, snap.mass),
-         std::abs(snap.pressure) <= 0.02 && std::abs(snap.length) <= 0.05 && snap.lost >= 1.0 &&
-             snap.energy < 1e-3 && snap.mass < 1e-8);
+  accept(
+      16,
+      text("hand-over and back, Griffith's crack of a well that stores, %.0f mm: p, length as it grows on; "
+           "lost in the snap over G per advance, of it by fracture; ledger; mass",
+           1e3 * step),
+      "2, 5 %; 1; printed; 1e-3; 1e-8",
+      text("%+.2f, %+.2f %%; %.3f, %.3f; %.1e; %.1e", 100 * snap.pressure, 100 * snap.length, snap.lost,
+           snap.torn, snap.energy, snap.mass),
+      std::abs(snap.pressure) <= 0.02 && std::abs(snap.length) <= 0.05 && snap.lost >= 1.0 &&
+          snap.energy < 1e-3 && snap.mass < 1e-8);
   return snap;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A fracture that snaps in field time: over to explicit steps, and back.
-#include <gtest/gtest.h>
-
 #include "hand_over.hpp"
+
+#include <gtest/gtest.h>
 
 namespace crackle {
 namespace {
