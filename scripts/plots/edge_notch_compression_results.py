@@ -16,7 +16,7 @@ import look
 import results_page
 from run_data import Fractures
 
-REACH = 6e-3  # within which the wing's direction is taken [m]
+REACH = 3e-3  # within which the wing's direction is taken: farther on it bends towards the load [m]
 WIDTH, HEIGHT = 50e-3, 100e-3  # [m]
 
 
@@ -49,7 +49,7 @@ def wing(rock, slit, resistance, power):
 
 
 def row_of(name, run):
-    method, ratio, angle = name.split("-")
+    method, ratio, angle = name.split("-")[:3]
     notch, rock, h = run.case["notches"][0], run.case["rock"], run.history
     mouth, tip = np.array([notch["x1"], notch["y1"]]), np.array([notch["x2"], notch["y2"]])
     times = run.events["time_s"][~run.slips()]
@@ -62,6 +62,7 @@ def row_of(name, run):
     by_energy = wing(rock, slit, "fracture_energy_mode1", 0.5)
     parts = results_page.broken(run)
     return {"run": name, "method": method, "ratio": int(ratio), "bedding_deg": int(angle),
+            "edge_mm": run.case["mesh"]["size_fine"] * 1e3,
             "platen_modulus_GPa": stiffness * 1e-9, "s22_GPa": 1e-9 / compliance(rock, rock["bedding_angle"])[2],
             "first_break_kN_m": float(np.interp(times.min(), h["time_s"], force)) * 1e-3 if len(times) else math.nan,
             "wing_deg": found, "by_strength_deg": by_strength, "by_energy_deg": by_energy,
@@ -75,10 +76,10 @@ def rock_of(row):
 
 
 def table(rows):
-    lines = [[f"{gallery.METHODS[r['method']]}, {rock_of(r)}", f"{r['platen_modulus_GPa']:.1f}", f"{r['s22_GPa']:.1f}",
+    lines = [[f"{gallery.METHODS[r['method']]}, {r['edge_mm']:.3g} mm, {rock_of(r)}", f"{r['platen_modulus_GPa']:.1f}", f"{r['s22_GPa']:.1f}",
               gallery.number(r["first_break_kN_m"], ".0f"), gallery.number(r["wing_deg"], ".0f"),
               f"{r['by_energy_deg']:.0f}, {r['by_strength_deg']:.0f}", f"{r['broken_mm']:.0f}", f"{r['energy_residual_max']:.1e}"] for r in rows]
-    return results_page.markdown(["method, rock", "modulus between platens [GPa]", "without slit 1/s22",
+    return results_page.markdown(["method, edges, rock", "modulus between platens [GPa]", "without slit 1/s22",
                                   "force at first break [kN/m]", "wing [°]", "theory, by energy, by strength",
                                   "broken [mm]",
                                   "energy residual"], lines)
@@ -91,8 +92,8 @@ def draw(runs, rows, path):
     for axes, (ratio, angle) in zip(grid, kinds):
         row = next(r for r in rows if (r["ratio"], r["bedding_deg"]) == (ratio, angle))
         for method in methods:
-            name = f"{method}-{ratio}-{angle}"
-            if name not in runs:
+            name = next((n for n in (f"{method}-{ratio}-{angle}-0.5mm", f"{method}-{ratio}-{angle}") if n in runs), None)
+            if name is None:
                 continue
             fractures = Fractures(runs[name].frames("fractures")[-1][1])
             axes.add_collection(LineCollection(fractures.segments[fractures.broken] * 1e3, colors=gallery.COLORS[method],
