@@ -197,7 +197,8 @@ def draw_fractures(runs, path):
     figure, grid = plt.subplots(len(METHODS), len(columns), figsize=(12.4, 9.2), sharex=True, sharey=True, layout="constrained")
     for line, method in zip(grid, METHODS):
         for axes, (angle, difference) in zip(line, columns):
-            run = runs[f"demand-{angle}-{difference}-permeable" if method == "permeable" else f"{method}-{angle}-{difference}"]
+            name = f"{method}-{angle}-{difference}"
+            run = runs[f"demand-{angle}-{difference}-permeable" if method == "permeable" else name]
             gallery.draw_lines(axes, run, "joints")
             gallery.draw_lines(axes, run, "notches")
             gallery.draw_path(axes, run, "demand" if method == "permeable" else method)

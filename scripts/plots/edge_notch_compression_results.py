@@ -16,7 +16,7 @@ import look
 import results_page
 from run_data import Fractures
 
-REACH = 6e-3  # within which the wing's direction is taken [m]
+REACH = 3e-3  # within which the wing's direction is taken: farther on it bends towards the load [m]
 WIDTH, HEIGHT = 50e-3, 100e-3  # [m]
 
 
@@ -49,7 +49,7 @@ def wing(rock, slit, resistance, power):
 
 
 def row_of(name, run):
-    method, ratio, angle = name.split("-")
+    method, ratio, angle = name.split("-")[:3]
     notch, rock, h = run.case["notches"][0], run.case["rock"], run.history
     mouth, tip = np.array([notch["x1"], notch["y1"]]), np.array([notch["x2"], notch["y2"]])
     times = run.events["time_s"][~run.slips()]
@@ -62,6 +62,7 @@ def row_of(name, run):
     by_energy = wing(rock, slit, "fracture_energy_mode1", 0.5)
     parts = results_page.broken(run)
     return {"run": name, "method": method, "ratio": int(ratio), "bedding_deg": int(angle),
+            "edge_mm": run.case["mesh"]["size_fine"] * 1e3,
             "platen_modulus_GPa": stiffness * 1e-9, "s22_GPa": 1e-9 / compliance(rock, rock["bedding_angle"])[2],
             "first_break_kN_m": float(np.interp(times.min(), h["time_s"], force)) * 1e-3 if len(times) else math.nan,
             "wing_deg": found, "by_strength_deg": by_strength, "by_energy_deg": by_energy,
@@ -75,28 +76,41 @@ def rock_of(row):
 
 
 def table(rows):
-    lines = [[f"{gallery.METHODS[r['method']]}, {rock_of(r)}", f"{r['platen_modulus_GPa']:.1f}", f"{r['s22_GPa']:.1f}",
+    lines = [[f"{gallery.METHODS[r['method']]}, {r['edge_mm']:.3g} mm, {rock_of(r)}", f"{r['platen_modulus_GPa']:.1f}", f"{r['s22_GPa']:.1f}",
               gallery.number(r["first_break_kN_m"], ".0f"), gallery.number(r["wing_deg"], ".0f"),
               f"{r['by_energy_deg']:.0f}, {r['by_strength_deg']:.0f}", f"{r['broken_mm']:.0f}", f"{r['energy_residual_max']:.1e}"] for r in rows]
-    return results_page.markdown(["method, rock", "modulus between platens [GPa]", "without slit 1/s22",
+    return results_page.markdown(["method, edges, rock", "modulus between platens [GPa]", "without slit 1/s22",
                                   "force at first break [kN/m]", "wing [°]", "theory, by energy, by strength",
                                   "broken [mm]",
                                   "energy residual"], lines)
 
 
+def means(rows):
+    """Of edges on demand over the meshes of the finest edges."""
+    finest = min(r["edge_mm"] for r in rows)
+    lines = []
+    for ratio, angle in sorted({(r["ratio"], r["bedding_deg"]) for r in rows if r["edge_mm"] == finest}):
+        mine = [r for r in rows if (r["method"], r["ratio"], r["bedding_deg"], r["edge_mm"]) == ("demand", ratio, angle, finest)]
+        found = [r["wing_deg"] for r in mine]
+        lines.append([rock_of(mine[0]), f"{np.mean(found):.0f} ± {np.std(found, ddof=1):.0f}",
+                      f"{mine[0]['by_energy_deg']:.0f}, {mine[0]['by_strength_deg']:.0f}"])
+    return results_page.markdown([f"edges on demand of {finest:.2g} mm, {len(mine)} meshes", "wing [°]",
+                                  "theory, by energy, by strength"], lines)
+
+
 def draw(runs, rows, path):
     kinds = list(dict.fromkeys((r["ratio"], r["bedding_deg"]) for r in rows))
     methods = [m for m in gallery.METHODS if any(r["method"] == m for r in rows)]
-    figure, grid = plt.subplots(1, len(kinds), figsize=(14.0, 4.0), sharex=True, sharey=True)
+    figure, grid = plt.subplots(1, len(kinds), figsize=(14.0, 3.4), sharex=True, sharey=True)
     for axes, (ratio, angle) in zip(grid, kinds):
         row = next(r for r in rows if (r["ratio"], r["bedding_deg"]) == (ratio, angle))
         for method in methods:
-            name = f"{method}-{ratio}-{angle}"
-            if name not in runs:
-                continue
-            fractures = Fractures(runs[name].frames("fractures")[-1][1])
-            axes.add_collection(LineCollection(fractures.segments[fractures.broken] * 1e3, colors=gallery.COLORS[method],
-                                               linewidths=1.4, label=gallery.METHODS[method]))
+            mine = [r for r in rows if (r["method"], r["ratio"], r["bedding_deg"]) == (method, ratio, angle)]
+            finest = min((r["edge_mm"] for r in mine), default=0.0)
+            for name in (r["run"] for r in mine if r["edge_mm"] == finest):
+                fractures = Fractures(runs[name].frames("fractures")[-1][1])
+                axes.add_collection(LineCollection(fractures.segments[fractures.broken] * 1e3, colors=gallery.COLORS[method],
+                                                   linewidths=1.2, label=gallery.METHODS[method]))
         run = runs[row["run"]]
         notch = run.case["notches"][0]
         axes.plot([notch["x1"] * 1e3, notch["x2"] * 1e3], [notch["y1"] * 1e3, notch["y2"] * 1e3], color="#8a97a3", linewidth=3.0)
@@ -111,10 +125,10 @@ def draw(runs, rows, path):
                 middle = np.array([-5.0, 12.0]) + k * 2.0 * np.array([-along[1], along[0]])
                 ends = np.array([middle - 5.0 * along, middle + 5.0 * along])
                 axes.plot(ends[:, 0], ends[:, 1], color="#8d5524", linewidth=0.8)
-        axes.set(xlim=(-25, 5), ylim=(-22, 20), aspect="equal")
+        axes.set(xlim=(-26, 2), ylim=(-22, 20), aspect="equal")
         axes.set_title("isotropic" if ratio == 1 else f"E_h/E_v = {ratio},\nbedding at {angle}°", fontsize=8.5, loc="left")
     handles = {text: handle for axes in grid for handle, text in zip(*axes.get_legend_handles_labels())}
-    figure.subplots_adjust(left=0.05, right=0.99, top=0.9, bottom=0.2, wspace=0.1)
+    figure.subplots_adjust(left=0.05, right=0.99, top=0.88, bottom=0.22, wspace=0.1)
     figure.legend(handles.values(), handles.keys(), loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=5)
     grid[0].set_ylabel("y [mm]")
     grid[len(grid) // 2].set_xlabel("x [mm]; brown: bedding; grey: slit")
@@ -124,7 +138,7 @@ def draw(runs, rows, path):
 def make(runs, folder):
     rows = [row_of(name, run) for name, run in runs.items()]
     results_page.write_csv(folder / "results.csv", rows)
-    results_page.put_between(folder / "README.md", "results", table(rows))
+    results_page.put_between(folder / "README.md", "results", means(rows) + "\n" + table(rows))
     draw(runs, rows, folder / "edge_notch_compression.png")
 
 
