@@ -18,13 +18,13 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 struct Group {
   ElementLanes element;
   std::array<CohesiveHistory*, lanes> history;
-  LaneRow a0x, a0y, a1x, a1y, b0x, b0y, b1x, b1y;      // displacement of the ends of both faces
-  LaneRow direction_x, direction_y;                    // reference
+  LaneRow a0x, a0y, a1x, a1y, b0x, b0y, b1x, b1y;  // displacement of the ends of both faces
+  LaneRow direction_x, direction_y;                // reference
   LaneRow offset_opening0, offset_slip0, offset_opening1, offset_slip1;
-  LaneRow tangent_x, tangent_y;                        // unit, now
-  LaneRow was_broken, breaks;                          // 1: yes
+  LaneRow tangent_x, tangent_y;  // unit, now
+  LaneRow was_broken, breaks;    // 1: yes
   LaneRow slid, fracture, sliding, friction, made, unpaid, path;
-  LaneRow force0x, force0y, force1x, force1y;          // on face a
+  LaneRow force0x, force0y, force1x, force1y;  // on face a
   std::array<PointLanes, 3> point;
   struct Before {
     LaneRow opening, slip, damage, plastic_slip, normal, shear, friction, stored, path;

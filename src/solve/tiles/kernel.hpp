@@ -57,8 +57,8 @@ struct MoveWork {
   double* displacement;
 };
 
-/// Triangles of a tile by groups of eight. A node of the tile is named by four times its number. Arrays of numbers
-/// have one row of eight a group (and component).
+/// Triangles of a tile by groups of eight. A node of the tile is named by four times its number. Arrays of
+/// numbers have one row of eight a group (and component).
 struct RockWork {
   int groups;
   const std::uint16_t* corners;  ///< [group][corner][lane], a node of the tile
@@ -83,8 +83,8 @@ struct RockWork {
 /// Intact cohesive elements.
 struct ElementWork {
   int groups;
-  const std::uint16_t* ends;  ///< [group][a0 a1 b0 b1][lane], a node of the tile
-  const double* numbers;      ///< [group][1/length, direction x y, opening0, slip0, opening1, slip1][lane]
+  const std::uint16_t* ends;   ///< [group][a0 a1 b0 b1][lane], a node of the tile
+  const double* numbers;       ///< [group][1/length, direction x y, opening0, slip0, opening1, slip1][lane]
   const double* displacement;  ///< as for triangles: this or motion
   const double* motion;
   double* force;

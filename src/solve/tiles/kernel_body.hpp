@@ -88,8 +88,10 @@ CRACKLE_INLINE Motion gather_motion(const double* p, const std::uint16_t* n) {
           {__builtin_shufflevector(v0, v1, 0, 2), __builtin_shufflevector(v0, v1, 1, 3)}};
 #elif CRACKLE_WIDTH == 4
   const V r0 = four(node(0)), r1 = four(node(1)), r2 = four(node(2)), r3 = four(node(3));
-  const V x01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6), y01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
-  const V x23 = __builtin_shufflevector(r2, r3, 0, 4, 2, 6), y23 = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
+  const V x01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6),
+          y01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
+  const V x23 = __builtin_shufflevector(r2, r3, 0, 4, 2, 6),
+          y23 = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
   return {{__builtin_shufflevector(x01, x23, 0, 1, 4, 5), __builtin_shufflevector(y01, y23, 0, 1, 4, 5)},
           {__builtin_shufflevector(x01, x23, 2, 3, 6, 7), __builtin_shufflevector(y01, y23, 2, 3, 6, 7)}};
 #else
@@ -320,7 +322,9 @@ void rock(const RockWork& w) {
   }
 }
 
-void elements(const ElementWork& w) { w.motion != nullptr ? element_groups<true>(w) : element_groups<false>(w); }
+void elements(const ElementWork& w) {
+  w.motion != nullptr ? element_groups<true>(w) : element_groups<false>(w);
+}
 
 }  // namespace CRACKLE_LEVEL
 // NOLINTEND(misc-definitions-in-headers)

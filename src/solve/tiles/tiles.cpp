@@ -108,7 +108,8 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   const bool viscous = bulk.viscous();
   const std::ptrdiff_t count = tile.count, numbers_of_node = viscous ? 4 : 2;
   if (viscous) {
-    kernels.copy_motion({nodes, nodes_end, numbers(state.displacement), numbers(state.velocity), s.motion.data()});
+    kernels.copy_motion(
+        {nodes, nodes_end, numbers(state.displacement), numbers(state.velocity), s.motion.data()});
   } else {
     kernels.copy({nodes, nodes_end, numbers(state.displacement), s.motion.data()});
   }
