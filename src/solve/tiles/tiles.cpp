@@ -42,12 +42,6 @@ struct Tiles::Scratch {
   alignas(64) std::array<std::uint8_t, 4 * block_size> near;
 };
 
-// The next tile's Reads are made from it.
-void Tiles::fetch_header(const Tile& tile) {
-  const char* const from = reinterpret_cast<const char*>(&tile);
-  for (std::size_t byte = 0; byte < sizeof tile; byte += 64) __builtin_prefetch(from + byte);
-}
-
 // What move_shared() reads besides the tile: it lies with other tiles.
 void Tiles::fetch_owned(const State& state, const Tile& tile) {
   for (const Index n : tile.owned) {
@@ -101,7 +95,6 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   Tile& tile = tiles_[at(i)];
   const Bulk& bulk = physics.bulk;
   fetch_owned(state, tile);
-  fetch_header(tiles_[std::min(at(i) + 2, tiles_.size() - 1)]);
   Scratch s;  // not initialised
   const tiles::Kernels& kernels = tiles::kernels();
   const tiles::Run *const nodes = tile.nodes.data(), *const nodes_end = nodes + tile.nodes.size();
