@@ -18,30 +18,20 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 struct Group {
   ElementLanes element;
   std::array<CohesiveHistory*, lanes> history;
-  LaneRow a0x, a0y, a1x, a1y, b0x, b0y, b1x, b1y;      // displacement of the ends of both faces
-  LaneRow direction_x, direction_y;                    // reference
+  LaneRow a0x, a0y, a1x, a1y, b0x, b0y, b1x, b1y;  // displacement of the ends of both faces
+  LaneRow direction_x, direction_y;                // reference
   LaneRow offset_opening0, offset_slip0, offset_opening1, offset_slip1;
-  LaneRow tangent_x, tangent_y;                        // unit, now
-  LaneRow was_broken, breaks;                          // 1: yes
+  LaneRow tangent_x, tangent_y;  // unit, now
+  LaneRow was_broken, breaks;    // 1: yes
   LaneRow slid, fracture, sliding, friction, made, unpaid, path;
-  LaneRow force0x, force0y, force1x, force1y;          // on face a
+  LaneRow force0x, force0y, force1x, force1y;  // on face a
   std::array<PointLanes, 3> point;
   struct Before {
-    LaneRow damage, plastic_slip, normal, shear, friction, stored, path;
-    LaneRow opening, slip, inserted, repaid;
+    LaneRow opening, slip, damage, plastic_slip, normal, shear, friction, stored, path;
+    LaneRow inserted, repaid;
   };
   std::array<Before, 3> before;
 };
-
-void remember(const PointLanes& point, Group::Before& before) {
-  before.damage = point.damage;
-  before.plastic_slip = point.plastic_slip;
-  before.normal = point.normal;
-  before.shear = point.shear;
-  before.friction = point.friction;
-  before.stored = point.stored;
-  before.path = point.path;
-}
 
 CRACKLE_KERNEL void separate(Group& g) {
 #pragma omp simd
@@ -137,16 +127,13 @@ CRACKLE_KERNEL void account(Group& g) {
   }
 }
 
-// What is to be read soon, into the cache, while elements before it are worked on.
-void fetch(const State& state, Index history) {
-  const CohesiveElements& c = state.cohesive;
-  const auto last = static_cast<Index>(c.histories.size()) - 1;
-  __builtin_prefetch(&c.histories[at(std::min(history + 24, last))]);
-  const CohesiveHistory& h = c.histories[at(std::min(history + 12, last))];
-  if (c.status[at(h.element)] == CohesiveStatus::intact) return;
+// Into the cache, while those before are worked on.
+void fetch(const CohesiveHistory& h) {
   const char* const from = reinterpret_cast<const char*>(&h);
   for (std::size_t byte = 0; byte < sizeof h; byte += 64) __builtin_prefetch(from + byte, 1);
-  for (const Index n : c.nodes[at(h.element)]) {
+}
+void fetch_nodes(const State& state, Index element) {
+  for (const Index n : state.cohesive.nodes[at(element)]) {
     __builtin_prefetch(&state.displacement[at(n)]);
     __builtin_prefetch(&state.velocity[at(n)]);
   }
@@ -202,7 +189,13 @@ void put_element(const State& state, const CohesiveMaterial& rock, CohesiveHisto
     Group::Before& before = g.before[q];
     point.point[l] = &p;
     point.given[l] = exact ? positive(p.inserted) : 0.0;
-    point.for_each_row([&](LaneRow& row, double CohesivePoint::*member) { row[l] = p.*member; });
+    point.damage[l] = before.damage[l] = p.damage;
+    point.plastic_slip[l] = before.plastic_slip[l] = p.plastic_slip;
+    point.path[l] = before.path[l] = p.path;
+    point.normal[l] = before.normal[l] = p.normal;
+    point.shear[l] = before.shear[l] = p.shear;
+    point.friction[l] = before.friction[l] = p.friction;
+    point.stored[l] = before.stored[l] = p.stored;
     before.opening[l] = p.opening;
     before.slip[l] = p.slip;
     before.inserted[l] = p.inserted;
@@ -284,10 +277,7 @@ void Cohesive::advance_histories(State& state) {
     Group g{};
     const auto advance = [&] {
       separate(g);
-      for (std::size_t q = 0; q < 3; ++q) {
-        remember(g.point[q], g.before[q]);
-        law_->move(g.element, g.point[q]);
-      }
+      for (PointLanes& p : g.point) law_->move(g.element, p);
       break_elements(*law_, g);
       account(g);
       for (std::size_t l = 0; l < g.element.used; ++l) {
@@ -297,7 +287,6 @@ void Cohesive::advance_histories(State& state) {
       g.element.used = 0;
     };
     for (Index j = begin; j < end; ++j) {
-      fetch(state, j);
       CohesiveHistory& h = c.histories[at(j)];
       const CohesiveStatus status = c.status[at(h.element)];
       if (status == CohesiveStatus::intact) continue;
@@ -306,6 +295,8 @@ void Cohesive::advance_histories(State& state) {
         h.slid = h.rubbed = 0.0;
         continue;
       }
+      fetch(c.histories[at(std::min(j + 8, count - 1))]);
+      fetch_nodes(state, c.histories[at(std::min(j + 4, count - 1))].element);
       put_element(state, materials_[c.material[at(h.element)]], h, g);
       if (g.element.used == lanes) advance();
     }

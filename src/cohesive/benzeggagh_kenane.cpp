@@ -162,11 +162,10 @@ class BenzeggaghKenane final : public CohesiveLaw {
 
   void move(const CohesiveMaterial& m, double length, double opening, double slip,
             CohesivePoint& p) const override {
-    const Point now =
-        moved({m.penalty / length, m.tensile_strength, m.cohesion, m.tan_friction, m.tan_residual,
-               m.fracture_energy_mode1, m.fracture_energy_mode2, m.mixed_mode_exponent,
-               m.calibration == Calibration::exact},
-              opening, slip, p.damage, p.plastic_slip, Power());
+    const Point now = moved({m.penalty / length, m.tensile_strength, m.cohesion, m.tan_friction,
+                             m.tan_residual, m.fracture_energy_mode1, m.fracture_energy_mode2,
+                             m.mixed_mode_exponent, m.calibration == Calibration::exact},
+                            opening, slip, p.damage, p.plastic_slip, Power());
     p.opening = opening;
     p.slip = slip;
     p.damage = now.damage;

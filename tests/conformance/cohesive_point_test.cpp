@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What every registered cohesive law has to keep at a point: energy, irreversibility, symmetry, contact.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
 
 #include "../result.hpp"
@@ -38,6 +41,60 @@ TEST_P(CohesivePointOf, DissipatesTheFractureEnergy) {
   }
   one_check.result(worst_one);
   two_check.result(worst_two);
+}
+
+// To and fro, each lane of its own material, opening and slip, until they are broken: by lanes and one by
+// one.
+TEST_P(CohesivePointOf, MovesSomeElementsAsItMovesOne) {
+  for (const double exponent : {4.0, 2.0, 3.0}) {
+    std::array<CohesiveMaterial, element_lanes> material;
+    std::array<CohesivePoint, element_lanes> one, some;
+    ElementLanes elements{};
+    PointLanes points{};
+    elements.used = element_lanes - 1;
+    for (std::size_t l = 0; l < elements.used; ++l) {
+      CohesiveMaterial& m = material[l] =
+          weaker_friction(l % 3 == 2 ? Calibration::y_geo : Calibration::exact);
+      m.mixed_mode_exponent = l == 1 ? 2.0 : exponent;
+      elements.material[l] = &m;
+      points.point[l] = &some[l];
+      points.given[l] = l == 3 ? 0.5 : 0.0;
+      elements.length[l] = 1e-3 * (1.0 + static_cast<double>(l));
+      elements.penalty[l] = m.penalty;
+      elements.tangential_penalty[l] = m.tangential_penalty;
+      elements.tensile_strength[l] = m.tensile_strength;
+      elements.cohesion[l] = m.cohesion;
+      elements.tan_friction[l] = m.tan_friction;
+      elements.tan_residual[l] = m.tan_residual;
+      elements.fracture_energy_mode1[l] = m.fracture_energy_mode1;
+      elements.fracture_energy_mode2[l] = m.fracture_energy_mode2;
+      m.fracture_energy_mode1 += points.given[l];
+      m.fracture_energy_mode2 += points.given[l];
+    }
+    int different = 0;
+    for (int i = 0; i < 4000; ++i) {
+      for (std::size_t l = 0; l < elements.used; ++l) {
+        const double t = 1e-2 * i * (1.0 + 0.1 * static_cast<double>(l)), reach = 2.5e-4 * i;
+        const double opening = far_opening * reach * (std::sin(t) - 0.2 * static_cast<double>(l % 4));
+        const double slip = far_slip * reach * std::cos(0.7 * t);
+        points.opening[l] = opening;
+        points.slip[l] = slip;
+        law.move(material[l], elements.length[l], opening, slip, one[l]);
+      }
+      law.move(elements, points);
+      for (std::size_t l = 0; l < elements.used; ++l) {
+        some[l].opening = points.opening[l];
+        some[l].slip = points.slip[l];
+        points.for_each_row([&](const LaneRow& row, double CohesivePoint::*member) {
+          some[l].*member = row[l];
+          different += row[l] != one[l].*member;
+        });
+      }
+    }
+    EXPECT_EQ(different, 0) << "exponent " << exponent;
+    const auto broken = std::ranges::count_if(one, [](const auto& p) { return p.damage == 1.0; });
+    EXPECT_EQ(broken, static_cast<std::ptrdiff_t>(elements.used));
+  }
 }
 
 TEST_P(CohesivePointOf, DissipatesItAboveResidualFrictionUnderCompression) {

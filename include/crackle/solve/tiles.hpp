@@ -64,10 +64,8 @@ class Tiles {
   template <class Visit>
   static void for_shared(const Tile& tile, const Visit& visit);
   void link(const State& state, Index i);
-  void look_after_pages(const State& state);
   void work(State& state, const Physics& physics, Index i, double dt, const StressScreen& screen,
             std::span<std::uint8_t> stressed, std::span<char> tile_stressed);
-  static void fetch_header(const Tile& tile);
   static void fetch_owned(const State& state, const Tile& tile);
   static void fetch_nodes(const State& state, const Tile& tile);
   /// Of the nodes whose last part is the tile's, those whose first part is in one of [begin, end).
@@ -77,7 +75,6 @@ class Tiles {
   std::vector<std::vector<Index>> near_of_tile_;
   std::vector<Index> near_;
   std::vector<double> power_;
-  std::vector<const void*> grown_;  // where the arrays of the state that grow lay at the last look
 };
 
 }  // namespace crackle

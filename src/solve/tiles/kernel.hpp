@@ -38,6 +38,14 @@ struct CopyWork {
   double* to;          ///< [node][x y]
 };
 
+/// Displacement and velocity of nodes side by side: what a viscous triangle reads of a corner is one vector.
+struct MotionWork {
+  const Run* run;
+  const Run* end;
+  const double *displacement, *velocity;  ///< [node of the state][x y]
+  double* to;                             ///< [node][displacement x y, velocity x y]
+};
+
 /// v += Δt f/m, x += Δt v
 struct MoveWork {
   const Run* run;
@@ -49,20 +57,20 @@ struct MoveWork {
   double* displacement;
 };
 
-/// Triangles of a tile by groups of eight. A node of the tile is named by twice its number. Arrays of numbers
-/// have one row of eight a group (and component).
+/// Triangles of a tile by groups of eight. A node of the tile is named by four times its number. Arrays of
+/// numbers have one row of eight a group (and component).
 struct RockWork {
   int groups;
   const std::uint16_t* corners;  ///< [group][corner][lane], a node of the tile
   const double* sides;           ///< [group][from corner 0 to 1, to 2: x y x y][lane], reference
-  const double* displacement;    ///< [node][x y]
+  const double* displacement;    ///< [node][x y]; viscous: null
   double* force;                 ///< [node][x y], added to
   PlaneStiffness stiffness;
   Sym2 in_situ;
   const double* in_situ_rows;  ///< [group][component][lane] where it is not the same in all; else null
   double weight;               ///< [N/m3]
-  // viscous; velocity null: not
-  const double* velocity;   ///< [node][x y]
+  // viscous; motion null: not
+  const double* motion;     ///< [node][displacement x y, velocity x y]
   const double* viscosity;  ///< [group][lane]
   double* strain_rate;      ///< [group][component][lane], of the last step: replaced
   double* power;            ///< [lane], added to
@@ -75,9 +83,10 @@ struct RockWork {
 /// Intact cohesive elements.
 struct ElementWork {
   int groups;
-  const std::uint16_t* ends;  ///< [group][a0 a1 b0 b1][lane], a node of the tile
-  const double* numbers;      ///< [group][1/length, direction x y, opening0, slip0, opening1, slip1][lane]
-  const double* displacement;
+  const std::uint16_t* ends;   ///< [group][a0 a1 b0 b1][lane], a node of the tile
+  const double* numbers;       ///< [group][1/length, direction x y, opening0, slip0, opening1, slip1][lane]
+  const double* displacement;  ///< as for triangles: this or motion
+  const double* motion;
   double* force;
   ElasticLimits<double> limits;
   /// [group][tensile strength, cohesion, tan friction, penalty][lane], where not the same in all; else null
@@ -88,6 +97,7 @@ struct ElementWork {
 
 struct Kernels {
   void (*copy)(const CopyWork&);
+  void (*copy_motion)(const MotionWork&);
   void (*move)(const MoveWork&);
   void (*rock)(const RockWork&);
   void (*elements)(const ElementWork&);
@@ -99,6 +109,7 @@ const Kernels& kernels();
 #define CRACKLE_DECLARE_KERNELS(level) \
   namespace level {                    \
   void copy(const CopyWork&);          \
+  void copy_motion(const MotionWork&); \
   void move(const MoveWork&);          \
   void rock(const RockWork&);          \
   void elements(const ElementWork&);   \

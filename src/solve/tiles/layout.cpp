@@ -316,20 +316,6 @@ void Tiles::link(const State& state, Index i) {
   });
 }
 
-// Arrays that have grown lie elsewhere, and in small pages.
-void Tiles::look_after_pages(const State& state) {
-  const auto whole = [](const auto& v) { return std::as_bytes(std::span(v.data(), v.capacity())); };
-  const CohesiveElements& c = state.cohesive;
-  const std::vector arrays{whole(state.displacement), whole(state.velocity), whole(state.inverse_mass),
-                           whole(c.histories),        whole(c.nodes),        whole(c.direction),
-                           whole(c.offset),           whole(c.force)};
-  std::vector<const void*> places;
-  for (const auto array : arrays) places.push_back(array.data());
-  if (places == grown_) return;
-  grown_ = std::move(places);
-  use_large_pages(arrays);
-}
-
 void Tiles::triangles_changed(const State& state, const Physics& physics, std::span<const Index> triangles) {
   std::vector<Index> changed;
   for (const Index t : triangles) changed.push_back(t / block_size);
@@ -342,7 +328,6 @@ void Tiles::elements_changed(const State& state, const Physics& physics, std::sp
   for (const Index element : elements) changed.push_back(tile_of_element(state, element));
   sort_out(changed);
   for (const Index i : changed) list_elements(state, physics.cohesive, i);
-  look_after_pages(state);
 }
 
 void Tiles::inserted(const State& state, const Physics& physics, std::span<const Index> edges) {
@@ -371,7 +356,6 @@ void Tiles::inserted(const State& state, const Physics& physics, std::span<const
   for (std::size_t i = 0; i < linked.size(); ++i) {
     if (linked[i]) link(state, static_cast<Index>(i));
   }
-  look_after_pages(state);
 }
 
 }  // namespace crackle

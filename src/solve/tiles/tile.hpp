@@ -97,9 +97,9 @@ struct Tiles::Tile {
   /// Whole and of one rock: the state's strain rates lie in its order.
   bool regular() const { return places.empty() && end - begin == block_size; }
   int element_groups() const { return static_cast<int>(elements.size()) / tiles::lanes; }
-  // Twice the number of a node in the tile.
-  std::uint16_t name(Index node) const { return static_cast<std::uint16_t>(2 * local(node)); }
-  std::uint16_t dummy(Index k) const { return static_cast<std::uint16_t>(2 * (count + k)); }
+  // Four times the number of a node in the tile.
+  std::uint16_t name(Index node) const { return static_cast<std::uint16_t>(4 * local(node)); }
+  std::uint16_t dummy(Index k) const { return static_cast<std::uint16_t>(4 * (count + k)); }
   std::uint16_t local(Index node) const {
     const auto after = std::upper_bound(nodes.begin(), nodes.end(), node,
                                         [](Index n, const tiles::Run& run) { return n < run.node; });

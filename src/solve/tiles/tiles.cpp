@@ -15,7 +15,6 @@ using tiles::Place;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-const double* numbers(const std::vector<Vec2>& v) { return &v.front().x; }
 double* numbers(std::vector<Vec2>& v) { return &v.front().x; }
 
 // Whether any of the marks of some groups is set.
@@ -34,19 +33,14 @@ bool any_of_groups(const std::uint8_t* marks, int groups) {
 // The small arrays that a tile works in. Every element may have two nodes of another tile.
 struct Tiles::Scratch {
   static constexpr std::size_t most = 9 * block_size + tiles::dummies;
-  alignas(64) std::array<double, 2 * most> displacement, velocity, force;
+  alignas(64) std::array<double, 4 * most> motion;  // or displacement alone
+  alignas(64) std::array<double, 2 * most> force;
   // A tile of many rocks may have a triangle a group.
   alignas(64) std::array<double, 3 * lanes * block_size> strain_rate;
   alignas(64) std::array<double, lanes> power;
   alignas(64) std::array<std::uint8_t, lanes * block_size> stressed;
   alignas(64) std::array<std::uint8_t, 4 * block_size> near;
 };
-
-// The next tile's Reads are made from it.
-void Tiles::fetch_header(const Tile& tile) {
-  const char* const from = reinterpret_cast<const char*>(&tile);
-  for (std::size_t byte = 0; byte < sizeof tile; byte += 64) __builtin_prefetch(from + byte);
-}
 
 // What move_shared() reads besides the tile: it lies with other tiles.
 void Tiles::fetch_owned(const State& state, const Tile& tile) {
@@ -101,28 +95,33 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   Tile& tile = tiles_[at(i)];
   const Bulk& bulk = physics.bulk;
   fetch_owned(state, tile);
-  fetch_header(tiles_[std::min(at(i) + 2, tiles_.size() - 1)]);
   Scratch s;  // not initialised
   const tiles::Kernels& kernels = tiles::kernels();
-  const auto nodes_end = 2 * static_cast<std::ptrdiff_t>(tile.count);
-  const auto load = [&](const std::vector<Vec2>& from, std::array<double, 2 * Scratch::most>& to) {
-    kernels.copy({tile.nodes.data(), tile.nodes.data() + tile.nodes.size(), numbers(from), to.data()});
-    std::fill_n(to.begin() + nodes_end, 2 * tiles::dummies, 0.0);
-  };
-  load(state.displacement, s.displacement);
-  std::fill_n(s.force.begin(), nodes_end + 2 * tiles::dummies, 0.0);
+  const tiles::Run *const nodes = tile.nodes.data(), *const nodes_end = nodes + tile.nodes.size();
+  const bool viscous = bulk.viscous();
+  const std::ptrdiff_t count = tile.count, numbers_of_node = viscous ? 4 : 2;
+  if (viscous) {
+    kernels.copy_motion(
+        {nodes, nodes_end, numbers(state.displacement), numbers(state.velocity), s.motion.data()});
+  } else {
+    kernels.copy({nodes, nodes_end, numbers(state.displacement), s.motion.data()});
+  }
+  std::fill_n(s.motion.begin() + numbers_of_node * count, numbers_of_node * tiles::dummies, 0.0);
+  std::fill_n(s.force.begin(), 2 * (count + tiles::dummies), 0.0);
+  const double* const displacement = viscous ? nullptr : s.motion.data();
+  const double* const motion = viscous ? s.motion.data() : nullptr;
 
   const int groups = tile.groups();
   tiles::RockWork rock{.groups = groups,
                        .corners = tile.corners.data(),
                        .sides = tile.sides.front().lane.data(),
-                       .displacement = s.displacement.data(),
+                       .displacement = displacement,
                        .force = s.force.data(),
                        .stiffness = {},
                        .in_situ = tile.stress,
                        .in_situ_rows = tile.in_situ.empty() ? nullptr : tile.in_situ.front().lane.data(),
                        .weight = 0.0,
-                       .velocity = nullptr,
+                       .motion = motion,
                        .viscosity = nullptr,
                        .strain_rate = nullptr,
                        .power = nullptr,
@@ -136,8 +135,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
   const std::size_t half = element_groups > 0 ? reads.count / 2 : reads.count;
   const int lines = static_cast<int>(reads.lines) / (groups + element_groups) + 1;
   rock.ahead = {ranges, ranges + half, lines};
-  if (bulk.viscous()) {
-    load(state.velocity, s.velocity);
+  if (viscous) {
     StrainRates& rates = state.strain_rate[at(i)];
     rock.strain_rate = tile.regular() ? rates.number.data() : s.strain_rate.data();
     if (!tile.regular()) {
@@ -151,7 +149,6 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
       });
     }
     s.power.fill(0.0);
-    rock.velocity = s.velocity.data();
     rock.viscosity = tile.viscosity.front().lane.data();
     rock.power = s.power.data();
   }
@@ -163,7 +160,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
     part.corners += 3 * lanes * batch.first;
     part.sides += 4 * lanes * batch.first;
     if (part.in_situ_rows != nullptr) part.in_situ_rows += 3 * lanes * batch.first;
-    if (part.velocity != nullptr) {
+    if (viscous) {
       part.viscosity += lanes * batch.first;
       part.strain_rate += 3 * lanes * batch.first;
     }
@@ -171,7 +168,7 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
     if (batch.first > 0) part.ahead = {};
     kernels.rock(part);
   }
-  if (bulk.viscous()) {
+  if (viscous) {
     double power = 0.0;
     for (const double p : s.power) power += p;
     power_[at(i)] = power;
@@ -202,7 +199,8 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
         {batch.groups,
          tile.ends.data() + 4 * lanes * batch.first,
          tile.numbers.front().lane.data() + 7 * lanes * batch.first,
-         s.displacement.data(),
+         displacement,
+         motion,
          s.force.data(),
          {m.penalty, m.tensile_strength, m.cohesion, m.tan_friction, physics.cohesive->law().curvature()},
          tile.limits.empty() ? nullptr : tile.limits.front().lane.data() + 4 * lanes * batch.first,
@@ -216,8 +214,8 @@ void Tiles::work(State& state, const Physics& physics, Index i, double dt, const
     }
   }
   const auto add = [&](std::uint16_t n, Vec2 f) {
-    s.force[n] += f.x;
-    s.force[n + 1u] += f.y;
+    s.force[n / 2u] += f.x;
+    s.force[n / 2u + 1u] += f.y;
   };
   for (const Tile::Damaged& d : tile.damaged) {
     const DamagedTriangle& triangle = state.damage.triangles[at(d.number)];
