@@ -11,7 +11,9 @@
 // Faces open, and on general paths slip. A tip chooses its next edge by the stress round it; joints take part
 // from the beginning, with friction, and take fluid where a fracture meets them. Where the mesh has a
 // wellbore its excavation and the pressure of the well load the rock, and its fluid is part of the well's.
-// Limits: elastic rock, no stress from fluid that leaks off, no inertia; joints do not grow at their ends.
+// Where a tip gets faster than a tenth of the Rayleigh speed, or no step converges, the rock goes on by
+// explicit steps with inertia (control.hand_over; dynamics.hpp in src), until equilibrium is near again.
+// Limits: elastic rock, no stress from fluid that leaks off; joints do not grow at their ends.
 #pragma once
 
 #include <functional>
@@ -138,7 +140,7 @@ class QuasiStatic {
   const quasi_static::State& state() const;
   /// The state now, without what belongs to a step.
   QuasiStaticRow row() const;
-  /// One step of the length that suits, ending at `end` [s] at the latest.
+  /// One step of the length that suits, or a number of explicit ones, ending at `end` [s] at the latest.
   /// @throws NumericalError when no step converges, or the fracture comes to the end of its path
   QuasiStaticRow step(double end);
   /// Steps until `end`; `record` gets every row.
