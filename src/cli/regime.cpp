@@ -199,8 +199,10 @@ RegimeChoice choose_regime(const Case& scene) {
   if (n.snap > 1.0) {
     choice.reasons.push_back(fmt::format(
         "snap: the fluid stored in the well drives a fracture of less than {:.3g} m on by itself; only "
-        "its viscosity and well.impedance hold it",
-        n.snap * first_half_length(scene)));
+        "its viscosity and well.impedance hold it, {}",
+        n.snap * first_half_length(scene),
+        scene.run.hand_over ? "else explicit steps carry it through"
+                            : "else the run ends there (run.hand_over)"));
   }
   choice.reasons.push_back(choose_leak_off(choice.scene, n));
   choice.reasons.push_back(choose_flow(choice.scene, n));

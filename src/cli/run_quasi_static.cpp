@@ -260,11 +260,11 @@ class FieldTimeRun {
                       row_.step / static_cast<double>(motion.steps)));
     } else if (moved && !moves) {
       const double wings = 2.0 / modelled_halves(scene_);
-      say(fmt::format("{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms: the fracture has grown by "
-                      "{:.3g} m (both wings), {:.3g} J/m went into waves",
-                      row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - motion.begin),
-                      wings * (row_.damaged_length - motion.length),
-                      wings * (row_.energies.radiated - motion.radiated)));
+      say(fmt::format(
+          "{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms: the fracture has grown by "
+          "{:.3g} m (both wings), {:.3g} J/m went into waves",
+          row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - motion.begin),
+          wings * (row_.damaged_length - motion.length), wings * (row_.energies.radiated - motion.radiated)));
     }
   }
 

@@ -237,7 +237,8 @@ TEST_F(Resume, LeavesTheSameBytesInFieldTime) {
 TEST_F(Resume, LeavesTheSameBytesAmidASnap) {
   write("case.toml", "include = \"" + std::string(CRACKLE_SOURCE_DIR) +
                          "/cases/granite_wellbore/smoke_field_time_snap.toml\"\n");
-  const std::vector<std::string> how{"--set", "run.end_time=48.92 s", "--set", "output.fields_every=48.9092 s"};
+  const std::vector<std::string> how{"--set", "run.end_time=48.92 s", "--set",
+                                     "output.fields_every=48.9092 s"};
   ASSERT_EQ(run("whole", how).code, 0);
   EXPECT_THAT(read_text(path("whole/run.log")), HasSubstr("in equilibrium again"));
   EXPECT_EQ(interrupted_run("parts", 1, how).code, 75);

@@ -13,7 +13,9 @@
 // meets one that holds, the joint's edges stand as tips beside its own, each with its own bond: what opens
 // first goes on. Where the mesh has a wellbore its excavation and the pressure of the well load the rock, and
 // its fluid is part of the well's. Layers have stiffness, stress and strength of their own.
-// Limits: elastic rock, no stress from fluid that leaks off, no inertia; joints without cohesion do not grow
+// Where a tip gets faster than a tenth of the Rayleigh speed, or no step converges, the rock goes on by
+// explicit steps with inertia (control.hand_over; dynamics.hpp in src), until equilibrium is near again.
+// Limits: elastic rock, no stress from fluid that leaks off; joints without cohesion do not grow
 // at their ends, those that hold break only where a fracture has come to them, by opening, and a fracture
 // that has turned into one follows it to its end.
 #pragma once
@@ -131,7 +133,7 @@ class QuasiStatic {
   const quasi_static::State& state() const;
   /// The state now, without what belongs to a step.
   QuasiStaticRow row() const;
-  /// One step of the length that suits, ending at `end` [s] at the latest.
+  /// One step of the length that suits, or a number of explicit ones, ending at `end` [s] at the latest.
   /// @throws NumericalError when no step converges, or the fracture comes to the end of its path
   QuasiStaticRow step(double end);
   /// Steps until `end`; `record` gets every row.

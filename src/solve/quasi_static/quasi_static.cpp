@@ -487,7 +487,7 @@ class QuasiStatic::Solver {
     const double released =
         state_.energies.radiated - motion.radiated + state_.energies.fracture - motion.fracture;
     if (motion.kinetic < calm * released) {
-      if (std::optional<QuasiStaticRow> row = come_to_rest(end)) return *std::move(row);
+      if (std::optional<QuasiStaticRow> row = come_to_rest(end)) return *row;
     }
     return move(end);
   }
