@@ -489,7 +489,21 @@ class QuasiStatic::Solver {
     if (motion.kinetic < calm * released) {
       if (std::optional<QuasiStaticRow> row = come_to_rest(end)) return *row;
     }
+    if (state_.time - motion.begin > longest_motion()) {
+      throw NumericalError(fmt::format(
+          "quasi-static stage: explicit steps from {:g} s on, where no step converged, have not come to rest "
+          "within {:.2g} s, in which a fracture at a tenth of the Rayleigh speed leaves the domain (well "
+          "pressure {:.4g} MPa); look at the fluid's compressibility, the pump and run.regime = \"dynamic\"",
+          motion.begin, longest_motion(), state_.well_pressure * 1e-6));
+    }
     return move(end);
+  }
+
+  // What goes on for longer is no snap [s].
+  double longest_motion() const {
+    double reach = 0.0;
+    for (const Vec2 v : scene_.mesh->vertices) reach = std::max({reach, std::abs(v.x), std::abs(v.y)});
+    return reach / fast_tip();
   }
 
   std::optional<QuasiStaticRow> come_to_rest(double end) {
@@ -531,7 +545,7 @@ class QuasiStatic::Solver {
       const double until = trial.time, dt = until - state_.time;
       return commit(std::move(trial), until, dt, scene_.pump.volume(state_.time, until) / dt, iterations);
     }
-    stop(shortest);
+    stop(shortest * qs::Dynamics(equations_, state_).stable_step());
   }
 
   // @param share of the stable step @return iterations of the last one; below 0: of one that does not
