@@ -54,7 +54,7 @@ void ViscousFlow::take_up(State& state) {
     if (old != f.cells.end() && old->edge == edge) {
       cells.push_back(*old++);
     } else {
-      cells.push_back({edge, 0.0, choice_.law.cavitation_pressure, 0.0});
+      cells.push_back({edge, 0.0, choice_.law.cavitation_pressure});
     }
   };
   if (wall) add(-1);
@@ -63,8 +63,16 @@ void ViscousFlow::take_up(State& state) {
   }
   f.cells = std::move(cells);
   rebuild(state);
+  std::vector<double> moved(f.cells.size(), 0.0);  // V in the last step
+  for (const Touch& t : touches_)
+    moved[at(t.cell)] += state.time_step * dot(t.gradient, state.velocity[at(t.node)]);
   for (std::size_t c = 0; c < f.cells.size(); ++c) {
-    if (f.cells[c].mass == 0.0) f.cells[c].volume = start_[c];
+    FlowCell& cell = f.cells[c];
+    if (cell.mass == 0.0) {
+      cell.volume = start_[c];
+      cell.gained = moved[c];
+      state.dissipation.viscous -= 0.5 * cell.pressure * cell.gained;  // half of the first push's work
+    }
   }
 }
 
@@ -377,12 +385,13 @@ void ViscousFlow::advance(State& state, double dt, double injected) {
     const double work = pumped * 0.5 * (fluid_.enthalpy(cell.pressure) + fluid_.enthalpy(pressure_[c]));
     // The rock's leapfrog takes the mean of the pressures that push before and after a move as the work on
     // it: this step's pressure was not yet known when the one before was booked.
-    late -= 0.5 * (push_[c] - cell.pressure) * (start_[c] - cell.volume);
+    late -= 0.5 * (push_[c] - cell.pressure) * cell.gained;
     lost_ahead_ += work + held_energy(cell.mass, cell.volume);
     lost_ahead_ -= 0.5 * (push_[c] + pressure_[c]) * (volume_[c] - cell.volume);
     well.work += work;
     cell.mass += gained[c] * fluid_.density;
     cell.pressure = pressure_[c];
+    cell.gained = volume_[c] - cell.volume;
     cell.volume = volume_[c];
     lost_ahead_ -= held_energy(cell.mass, cell.volume);
   }

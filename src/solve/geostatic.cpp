@@ -181,6 +181,7 @@ void Simulation::settle() {
   if (scene_.absorbing_boundary || loads_) bear_geostatic_loads(std::move(forces));
   tiles_.emplace(state_, physics());
   if (geostatic_slips_ > 0 || !scene_.cracks.empty() || !scene_.damage.cut.empty()) relax();
+  stopwatch_ = {};
   if (fluid_ && scene_.flow) fluid_->flow(state_, {*scene_.flow, sparse_solver()});
   state_.dissipation = {};
   // The residual is not measured against less energy than strains of 3e-7 everywhere hold: while the

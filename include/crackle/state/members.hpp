@@ -138,6 +138,7 @@ void members(FlowCell& c, V&& v) {
   v("mass", c.mass);
   v("pressure", c.pressure);
   v("volume", c.volume);
+  v("gained", c.gained);
 }
 
 template <class V>

@@ -141,6 +141,7 @@ struct FlowCell {
   double mass = 0.0;      ///< per metre of thickness [kg/m]
   double pressure = 0.0;  ///< [Pa]
   double volume = 0.0;    ///< per metre of thickness [m2]
+  double gained = 0.0;    ///< of it, in the last step [m2]
 };
 
 struct FluidState {
