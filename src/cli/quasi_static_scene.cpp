@@ -328,8 +328,12 @@ std::string quasi_static_mesh_text(const Case& scene, const QuasiStaticScene& st
   text += fmt::format("; {} wings from {}{}", stage.wings.size(),
                       is_bored(scene) ? "the wall of the wellbore" : "the well",
                       is_straight(scene) ? " along x" : ", free");
-  for (const Wing& wing : stage.wings)
+  for (const Wing& wing : stage.wings) {
+    if (&wing != &stage.wings.front() && wing.path.size() == stage.wings.front().path.size() &&
+        wing.open == stage.wings.front().open)
+      continue;
     text += fmt::format("; {} edges, {} of them open", wing.path.size(), wing.open);
+  }
   const auto bonded = std::ranges::count_if(stage.joints, &JointEdge::bonded);
   if (!stage.joints.empty())
     text += fmt::format("; {} edges of joints, {} of them bonded", stage.joints.size(), bonded);

@@ -6,31 +6,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "checkpoint.hpp"
-#include "crackle/core/errors.hpp"
-#include "crackle/core/version.hpp"
 #include "forecast.hpp"
 #include "frames.hpp"
 #include "joints.hpp"
-#include "progress.hpp"
 #include "quasi_static_scene.hpp"
 #include "regime.hpp"
-#include "signals.hpp"
-#include "tally.hpp"
+#include "run_loop.hpp"
 
 namespace crackle {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, const Case& scene) {
   const double halves = modelled_halves(scene), wings = 2.0 / halves;
@@ -146,64 +137,22 @@ Vec2 broken_extent(const QuasiStatic& stage) {
   return high.x < low.x ? Vec2{} : high - low;
 }
 
-// One process of a run in field time: from the beginning or a checkpoint to the end or an interruption.
-class FieldTimeRun {
+class FieldTimeRun final : public RunLoop {
  public:
   FieldTimeRun(const RunOptions& options, const Case& scene, RunFolder& folder, Status& status)
-      : options_(options),
-        scene_(scene),
-        folder_(folder),
-        status_(status),
-        tally_(scene.run.end_time),
-        text_(resolved_toml(scene)) {}
-
-  /// @return exit code
-  int go() {
-    folder_.set_field_time();
-    say(fmt::format("crackle {}: {}", version, scene_.title.empty() ? scene_.file : scene_.title));
-    begin();
-    heed_interrupt();
-    Progress progress(scene_.run.end_time, options_.quiet);
-    try {
-      while (!at_end() && !stop_requested()) {
-        step();
-        progress.show(now());
-        status_.show(now());
-        if (checkpoint_is_due()) write_checkpoint();
-      }
-    } catch (const NumericalError& error) {
-      exit_ = error.what();
-      finish();
-      progress.finish(now());
-      folder_.log(exit_);
-      throw;
-    }
-    if (!at_end()) {
-      exit_ = "interrupted";
-      write_checkpoint();
-    }
-    const RunSummary summary = finish();
-    progress.finish(now());
-    if (at_end()) folder_.remove_checkpoints();
-    report(summary);
-    return static_cast<int>(at_end() ? ExitCode::done : ExitCode::interrupted);
+      : RunLoop(options, scene, folder, status) {
+    folder.set_field_time();
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void say(const std::string& line) {
-    folder_.log(line);
-    if (!options_.quiet) print_line(line);
-  }
-  bool at_end() const { return stage_->time() >= scene_.run.end_time; }
-  Progress::Now now() const {
+  bool is_at_end() const override { return stage_->time() >= scene_.run.end_time; }
+  Progress::Now now() const override {
     return {row_.time, row_.well_pressure, tally_.memory().steps,
             std::ranges::count_if(stage_->cells(),
                                   [](const FractureCell& c) { return !c.joint && is_broken(c); })};
   }
 
-  void begin() {
+  void begin() override {
     NetworkReport network;
     auto mesh = std::make_shared<Mesh>();
     quasi_static::State state;
@@ -230,12 +179,12 @@ class FieldTimeRun {
       tally_ = Tally(scene_.run.end_time, memory_.tally);
       return;
     }
-    say(fmt::format("rock factorised, initial fracture in equilibrium ({:.1f} s)", seconds_since(start_)));
+    say(fmt::format("rock factorised, initial fracture in equilibrium ({:.1f} s)", wall()));
     folder_.write_resolved(scene_);
     folder_.append_field_time(history_row(*stage_, row_, scene_));
   }
 
-  void step() {
+  void step() override {
     if (stage_->time() >= memory_.next_frame) {
       write_frame();
       const double every = scene_.output.fields_every;
@@ -272,28 +221,21 @@ class FieldTimeRun {
     folder_.write_frame(field_frame(*stage_, scene_.output.fields), fracture_frame(*stage_));
   }
 
-  bool checkpoint_is_due() {
-    if (take_checkpoint_request()) return true;
-    return scene_.output.checkpoint_every > 0.0 &&
-           seconds_since(last_checkpoint_) >= scene_.output.checkpoint_every;
-  }
-
   FieldTimeMemory memory_now() const {
     FieldTimeMemory memory = memory_;
     memory.tally = tally_.memory();
-    memory.wall += seconds_since(start_);
+    memory.wall += wall();
     return memory;
   }
 
-  void write_checkpoint() {
+  void write_checkpoint() override {
     FieldTimeMemory memory = memory_now();
     memory.folder = folder_.marks();
     folder_.write_checkpoint(
         pack_field_time(*stage_->scene().mesh, stage_->state(), std::move(memory), text_));
-    last_checkpoint_ = Clock::now();
   }
 
-  RunSummary finish() {
+  RunSummary finish() override {
     write_frame();
     RunSummary summary = tally_.finish();
     summary.triangles = triangles_;
@@ -307,13 +249,13 @@ class FieldTimeRun {
     summary.core_ns_per_triangle_step =
         1e9 * summary.wall /
         (static_cast<double>(triangles_) * static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
-    summary.exit = exit_;
+    summary.exit = exit_reason();
     folder_.write_quakeml({}, scene_);
     folder_.write_summary(summary);
     return summary;
   }
 
-  void report(const RunSummary& summary) {
+  void report(const RunSummary& summary) override {
     say(
         fmt::format("{} steps, {} Newton iterations, {} steps taken back; mass balance {:.1e} of what was "
                     "injected, energy residual {:.1e}; {:.1f} s",
@@ -324,22 +266,12 @@ class FieldTimeRun {
         "at the well at the end",
         1e-6 * summary.breakdown_pressure, summary.breakdown_time, summary.broken_length,
         1e3 * row_.opening));
-    say(fmt::format("{}: {}", exit_, folder_.path()));
-    if (!at_end()) say("to go on: crackle run --resume " + folder_.path());
   }
 
-  const RunOptions& options_;
-  const Case& scene_;
-  RunFolder& folder_;
-  Status& status_;
   std::unique_ptr<QuasiStatic> stage_;
   QuasiStaticRow row_, before_;  // now; the last one at rest
-  Tally tally_;
-  FieldTimeMemory memory_;  // of the processes before this one
-  std::string text_;        // of the resolved case
-  std::string exit_ = "done";
+  FieldTimeMemory memory_;       // of the processes before this one
   Index triangles_ = 0;
-  Clock::time_point start_ = Clock::now(), last_checkpoint_ = start_;
 };
 
 }  // namespace

@@ -352,7 +352,7 @@ class QuasiStatic::Solver {
     if (next >= wing.path.size() && !wing.free) {
       throw NumericalError(
           fmt::format("quasi-static stage: at {:g} s the fracture has come to the end of its path; "
-                      "make the path longer, or end the run earlier",
+                      "make the path longer (mesh.fine_radius), or end the run earlier",
                       state.time));
     }
     const std::size_t jumps = state.jumps.size();
