@@ -16,8 +16,9 @@ def draw(run, path, b=None, completeness=None):
     counts = figure.add_subplot(layout[1, 1])
     events = run.events
     count = len(events.get("time_s", ()))
-    look.set_titles(figure, run, f"catalog of {count:,} seismic events")
-    look.name_axes(distance, "Distance from the origin over time", "time [ms]", "distance [mm]")
+    look.set_titles(figure, run, f"catalog of {count:,} seismic event{'s' * (count != 1)}")
+    unit, _ = look.time_unit_of(run)
+    look.name_axes(distance, "Distance from the origin over time", f"time [{unit}]", "distance [mm]")
     look.name_axes(moment, "Cumulative moment and pressure", "wellbore pressure [MPa]", "Σ M0 [N m/m]")
     look.name_axes(counts, "How many exceed a magnitude", "magnitude", "events ≥ magnitude")
     if count == 0:
@@ -31,11 +32,12 @@ def draw(run, path, b=None, completeness=None):
 
 
 def draw_distance(axes, run):
+    _, seconds = look.time_unit_of(run)
     events = run.events
     reach = np.hypot(events["x_m"], events["y_m"]) * 1e3
     for key, (name, chosen) in groups(run).items():
         if chosen.any():
-            axes.scatter(events["time_s"][chosen] * 1e3, reach[chosen], s=13, marker=look.MODE_MARKERS[key],
+            axes.scatter(events["time_s"][chosen] / seconds, reach[chosen], s=13, marker=look.MODE_MARKERS[key],
                          color=look.MODE_COLORS[key], alpha=0.75, linewidths=0, label=f"{name} ({chosen.sum():,})")
     if run.wellbore_radius > 0.0:
         axes.axhline(run.wellbore_radius * 1e3, color=look.FAINT, linewidth=0.8)
@@ -59,9 +61,10 @@ def draw_moment(figure, axes, run):
     total = np.concatenate([[0.0], np.cumsum(scalar_moment(run.events)[order])])
     time, pressure = history["time_s"], history["pressure_Pa"]
     released = total[np.searchsorted(run.events["time_s"][order], time, side="right")]
-    line = axes.scatter(pressure / 1e6, released, c=time * 1e3, s=6, cmap="plasma", linewidths=0)
+    unit, seconds = look.time_unit_of(run)
+    line = axes.scatter(pressure / 1e6, released, c=time / seconds, s=6, cmap="plasma", linewidths=0)
     axes.plot(pressure / 1e6, released, color=look.FAINT, linewidth=0.6, zorder=1)
-    figure.colorbar(line, ax=axes, pad=0.02).set_label("time [ms]")
+    figure.colorbar(line, ax=axes, pad=0.02).set_label(f"time [{unit}]")
 
 
 def draw_exceeding(axes, magnitude, b, completeness):

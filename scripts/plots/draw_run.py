@@ -33,6 +33,8 @@ def main():
         folder = pathlib.Path(arguments.output or arguments.run)
         folder.mkdir(parents=True, exist_ok=True)
         figures = dict(IN_FIELD_TIME if field_time_figure.is_one(run) else FIGURES)
+        if len(run.events.get("time_s", ())) > 0:
+            figures["events.png"] = events_figure.draw
         if load_figure.names(run):
             figures["load.png"] = load_figure.draw
         for name, draw in figures.items():

@@ -18,9 +18,10 @@ def draw(run, path):
     place, over_time, counts = (figure.add_subplot(layout[:, 0]), figure.add_subplot(layout[0, 1]),
                                 figure.add_subplot(layout[1, 1]))
     time = run.events.get("time_s", np.zeros(0))
-    look.set_titles(figure, run, f"{len(time):,} seismic events")
+    look.set_titles(figure, run, f"{len(time):,} seismic event{'s' * (len(time) != 1)}")
     look.name_axes(place, "Where", "x [mm]", "y [mm]")
-    look.name_axes(over_time, "Magnitudes over time", "time [ms]", "magnitude")
+    unit, _ = look.time_unit_of(run)
+    look.name_axes(over_time, "Magnitudes over time", f"time [{unit}]", "magnitude")
     look.name_axes(counts, "How many of which magnitude", "magnitude  (log₁₀ E[J] − 4.8) / 1.5", "events")
     if len(time) == 0:
         for axes in (place, over_time, counts):
@@ -67,9 +68,10 @@ def marker_sizes(magnitude):
 
 def draw_map(figure, axes, run):
     events = run.events
-    time = events["time_s"] * 1e3
+    unit, seconds = look.time_unit_of(run)
+    time = events["time_s"] / seconds
     sizes = marker_sizes(events["magnitude"])
-    span = (time.min(), max(time.max(), time.min() + 1e-9))
+    span = (time.min(), time.max()) if time.max() > time.min() else (0.0, run.history["time_s"][-1] / seconds)
     for mode, (_, chosen) in groups(run).items():
         dots = axes.scatter(events["x_m"][chosen] * 1e3, events["y_m"][chosen] * 1e3, s=sizes[chosen], c=time[chosen],
                             vmin=span[0], vmax=span[1], cmap="plasma", marker=look.MODE_MARKERS[mode],
@@ -77,7 +79,7 @@ def draw_map(figure, axes, run):
     look.draw_wellbore(axes, run.wellbore_radius * 1e3)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.08)
-    figure.colorbar(dots, cax=axes.inset_axes([1.025, 0.0, 0.03, 1.0])).set_label("time [ms]")
+    figure.colorbar(dots, cax=axes.inset_axes([1.025, 0.0, 0.03, 1.0])).set_label(f"time [{unit}]")
     handles = [Line2D([], [], color="none", marker=look.MODE_MARKERS[mode], markerfacecolor="#b9c1c8",
                       markeredgecolor=look.INK, markeredgewidth=0.5, markersize=6,
                       label=f"{name} ({int(chosen.sum()):,})") for mode, (name, chosen) in groups(run).items()]
@@ -86,9 +88,10 @@ def draw_map(figure, axes, run):
 
 
 def draw_magnitudes(axes, run):
+    _, seconds = look.time_unit_of(run)
     for mode, (name, chosen) in groups(run).items():
         chosen = chosen & with_energy(run)
-        axes.scatter(run.events["time_s"][chosen] * 1e3, run.events["magnitude"][chosen], s=11,
+        axes.scatter(run.events["time_s"][chosen] / seconds, run.events["magnitude"][chosen], s=11,
                      marker=look.MODE_MARKERS[mode], color=MODE_FILLS[mode], alpha=0.75, linewidths=0, label=name)
     known = run.events["magnitude"][with_energy(run)]
     if known.size:
@@ -115,4 +118,5 @@ def draw_counts(axes, run):
     axes.axvline(median, color=look.INK, linewidth=1.0, linestyle=(0, (4, 2)))
     axes.set_title(f"median {median:.2f}", loc="right", fontsize=9, color="#5b6873")
     axes.grid(axis="x", visible=False)
+    axes.locator_params(axis="x", nbins=6)
     axes.legend(loc="best")

@@ -14,16 +14,9 @@ def is_one(run):
     return "fracture_volume_m2" in run.history
 
 
-def unit_of(end):
-    for unit, seconds in (("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
-        if end > 3.0 * seconds:
-            return unit, seconds
-    return "s", 1.0
-
-
 def draw_history(run, path):
     history = run.history
-    unit, seconds = unit_of(history["time_s"][-1])
+    unit, seconds = look.time_unit_of(run)
     time = history["time_s"] / seconds
     figure, (top, middle, bottom) = plt.subplots(
         3, 1, figsize=(8.2, 7.6), sharex=True, gridspec_kw={"height_ratios": [3.0, 1.5, 1.5]})
@@ -73,7 +66,7 @@ def draw_map(run, time, frame, figure_path):
     wide, high = 1.16 * np.ptp(lines[:, :, 0]), np.ptp(lines[:, :, 1]) + 0.16 * np.ptp(lines[:, :, 0])
     height = min(2.3 + 4.3 * high / wide, 8.0)
     figure, panels = plt.subplots(1, 2, figsize=(9.6, height), sharex=True, sharey=True)
-    unit, seconds = unit_of(run.history["time_s"][-1])
+    unit, seconds = look.time_unit_of(run)
     look.set_titles(figure, run, f"Fracture and joints at {time / seconds:.3g} {unit}")
     for axes, name, scale, label in zip(panels, ("opening_m", "pressure_Pa"), (1e3, 1e-6),
                                         ("opening [mm]", "pressure [MPa]")):
@@ -94,7 +87,7 @@ def draw_map(run, time, frame, figure_path):
 def draw_profiles(run, frames, figure_path):
     figure, (top, bottom) = plt.subplots(2, 1, figsize=(8.2, 6.0), sharex=True)
     look.set_titles(figure, run, "Opening and pressure along the fracture")
-    unit, seconds = unit_of(run.history["time_s"][-1])
+    unit, seconds = look.time_unit_of(run)
     for number, (time, frame) in enumerate(frames):
         x = frame.points[frame.cells].mean(axis=1)[:, 0]
         order = np.argsort(x)

@@ -67,6 +67,19 @@ def draw_wellbore(axes, radius):
         axes.add_patch(plt.Circle((0.0, 0.0), radius, fill=False, edgecolor=INK, linewidth=0.8, zorder=3))
 
 
+def time_unit(end):
+    """(name, length [s]) of the unit of time that suits a run which lasts so long [s]"""
+    for unit, seconds in (("d", 86400.0), ("h", 3600.0), ("min", 60.0), ("s", 1.0)):
+        if end > 3.0 * seconds:
+            return unit, seconds
+    return ("s", 1.0) if end > 0.5 else ("ms", 1e-3)
+
+
+def time_unit_of(run):
+    times = run.history.get("time_s", ())
+    return time_unit(times[-1] if len(times) else 0.0)
+
+
 def save(figure, path):
     figure.savefig(path)
     plt.close(figure)

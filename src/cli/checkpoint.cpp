@@ -84,6 +84,7 @@ void members(FieldTimeMemory& m, V&& v) {
   v("next_frame", m.next_frame);
   v("wall", m.wall);
   v("folder", m.folder);
+  v("events", m.events);
 }
 
 namespace {

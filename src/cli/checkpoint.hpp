@@ -57,6 +57,7 @@ struct FieldTimeMemory {
   double next_frame = 0.0;         ///< [s]
   double wall = 0.0;               ///< over all processes of the run [s]
   FolderMarks folder;
+  std::vector<SeismicEvent> events;  ///< so far
 };
 
 /// The same two for a run in field time.

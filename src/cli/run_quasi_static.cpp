@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "checkpoint.hpp"
+#include "crackle/seismic/listener.hpp"
 #include "forecast.hpp"
 #include "frames.hpp"
 #include "joints.hpp"
@@ -22,6 +23,21 @@ namespace crackle {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// The last snap, of both halves.
+SeismicEvent snap_event(const QuasiStatic& stage, const Case& scene) {
+  SeismicEvent e = stage.last_snap();
+  if (modelled_halves(scene) == 1.0) {
+    for (double* of_half : {&e.energy, &e.fracture_energy, &e.friction_energy, &e.length, &e.moment.xx,
+                            &e.moment.yy, &e.moment.zz})
+      *of_half *= 2.0;
+    e.edges *= 2;
+    e.moment.xy = e.place.x = 0.0;
+  }
+  e.magnitude = magnitude_of_energy(e.energy * scene.seismic.thickness);
+  e.moment_magnitude = moment_magnitude(scalar_moment(e.moment) * scene.seismic.thickness);
+  return e;
+}
 
 FieldTimeRow history_row(const QuasiStatic& stage, const QuasiStaticRow& row, const Case& scene) {
   const double halves = modelled_halves(scene), wings = 2.0 / halves;
@@ -177,6 +193,7 @@ class FieldTimeRun final : public RunLoop {
     row_ = stage_->row();
     if (resumed) {
       tally_ = Tally(scene_.run.end_time, memory_.tally);
+      for (const SeismicEvent& e : memory_.events) tally_.event(e);
       return;
     }
     say(fmt::format("rock factorised, initial fracture in equilibrium ({:.1f} s)", wall()));
@@ -209,11 +226,15 @@ class FieldTimeRun final : public RunLoop {
                       row_.step / static_cast<double>(motion.steps)));
     } else if (moved && !moves) {
       const double wings = 2.0 / modelled_halves(scene_);
-      say(fmt::format(
-          "{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms: the fracture has grown by "
-          "{:.3g} m (both wings), {:.3g} J/m went into waves",
-          row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - motion.begin),
-          wings * (row_.damaged_length - motion.length), wings * (row_.energies.radiated - motion.radiated)));
+      const SeismicEvent event = snap_event(*stage_, scene_);
+      say(
+          fmt::format("{:.6g} s, {:.3f} MPa: in equilibrium again after {:.3g} ms: the fracture has grown by "
+                      "{:.3g} m (both wings), {:.3g} J/m went into waves, magnitude {:.2f}",
+                      row_.time, 1e-6 * row_.well_pressure, 1e3 * (row_.time - motion.begin),
+                      wings * (row_.damaged_length - motion.length), event.energy, event.magnitude));
+      memory_.events.push_back(event);
+      tally_.event(event);
+      folder_.append_event(event);
     }
   }
 
@@ -250,7 +271,7 @@ class FieldTimeRun final : public RunLoop {
         1e9 * summary.wall /
         (static_cast<double>(triangles_) * static_cast<double>(std::max<std::int64_t>(1, summary.steps)));
     summary.exit = exit_reason();
-    folder_.write_quakeml({}, scene_);
+    folder_.write_quakeml(memory_.events, scene_);
     folder_.write_summary(summary);
     return summary;
   }

@@ -15,7 +15,7 @@ enum class FailureMode : std::int8_t { tensile = 1, shear = 2, mixed = 3 };
 std::string to_string(FailureMode mode);
 
 /// What made an event: a cohesive element that broke, or connected edges of joints, or faces in general
-/// contact, that slid.
+/// contact, that slid. In field time a whole snap is one that broke.
 enum class EventKind : std::int8_t { breaking = 1, slip = 2 };
 
 std::string to_string(EventKind kind);

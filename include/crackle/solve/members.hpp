@@ -136,6 +136,13 @@ void members(Energies& e, V&& v) {
 }
 
 template <class V>
+void members(Faces& f, V&& v) {
+  v("opening", f.opening);
+  v("slip", f.slip);
+  v("damaged", f.damaged);
+}
+
+template <class V>
 void members(Motion& m, V&& v) {
   v("place", m.place);
   v("velocity", m.velocity);
@@ -144,6 +151,8 @@ void members(Motion& m, V&& v) {
   v("length", m.length);
   v("radiated", m.radiated);
   v("fracture", m.fracture);
+  v("friction", m.friction);
+  v("faces", m.faces);
   v("damped", m.damped);
   v("kinetic", m.kinetic);
   v("steps", m.steps);

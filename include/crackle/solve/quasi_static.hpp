@@ -32,6 +32,7 @@
 #include "crackle/fluid/leak_off.hpp"
 #include "crackle/fluid/pump.hpp"
 #include "crackle/fluid/well.hpp"
+#include "crackle/seismic/event.hpp"
 #include "crackle/solve/fracture_path.hpp"
 #include "crackle/solve/quasi_static_state.hpp"
 #include "crackle/solve/rock_model.hpp"
@@ -139,6 +140,9 @@ class QuasiStatic {
   /// Steps until `end`; `record` gets every row.
   void run(double end, const std::function<void(const QuasiStaticRow&)>& record = {});
 
+  /// The last snap, as soon as the fracture is at rest again: one event, of what is modelled, without
+  /// magnitudes. Its length is what has been damaged, its energy all that waves took along.
+  SeismicEvent last_snap() const;
   std::vector<FractureCell> cells() const;
   const FracturePath& path() const;
   /// Displacement [m] of every corner of every triangle, three a triangle, with the jumps.

@@ -69,6 +69,13 @@ struct Energies {
   double residual = 0.0;     ///< what does not add up, over the work of the pump [-]
 };
 
+/// What the faces of a path edge have done.
+struct Faces {
+  double opening = 0.0;  ///< at the middle [m]
+  double slip = 0.0;     ///< [m]
+  double damaged = 0.0;  ///< length [m]
+};
+
 /// Of the rock where the fracture snaps (dynamics.hpp in src); at rest, what is known of the last one.
 struct Motion {
   std::vector<Vec2> place;     ///< displacement of every corner of every triangle [m]; empty: at rest
@@ -78,6 +85,8 @@ struct Motion {
   double length = 0.0;         ///< damaged before [m]
   double radiated = 0.0;       ///< before [J/m]
   double fracture = 0.0;       ///< before [J/m]
+  double friction = 0.0;       ///< before [J/m]
+  std::vector<Faces> faces;    ///< of the cells before
   double damped = 0.0;         ///< since the beginning [J/m]
   double kinetic = 0.0;        ///< now [J/m]
   std::int64_t steps = 0;      ///< since the beginning

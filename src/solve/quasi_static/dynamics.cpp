@@ -39,6 +39,8 @@ Motion set_in_motion(const Equations& e, const State& state) {
   motion.length = row_of(e, state).damaged_length;
   motion.radiated = state.energies.radiated;
   motion.fracture = state.energies.fracture;
+  motion.friction = state.energies.friction;
+  for (std::size_t c = 0; c < state.cells.size(); ++c) motion.faces.push_back(faces_of(e, state, c));
   return motion;
 }
 

@@ -652,6 +652,7 @@ void QuasiStatic::run(double end, const std::function<void(const QuasiStaticRow&
     if (record) record(row);
   }
 }
+SeismicEvent QuasiStatic::last_snap() const { return qs::snap_of(solver_->equations(), state()); }
 std::vector<FractureCell> QuasiStatic::cells() const { return qs::cells_of(solver_->equations(), state()); }
 const FracturePath& QuasiStatic::path() const { return solver_->path(); }
 std::vector<Vec2> QuasiStatic::corner_displacement() const {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bore.hpp"
+#include "crackle/seismic/listener.hpp"
 
 namespace crackle::quasi_static {
 namespace {
@@ -131,6 +132,53 @@ std::vector<FractureCell> cells_of(const Equations& e, const State& state) {
     list.push_back(f);
   }
   return list;
+}
+
+Faces faces_of(const Equations& e, const State& state, std::size_t c) {
+  const PathEdge& edge = e.path.edges()[c];
+  const auto w = openings(edge, state.jumps), s = slips(edge, state.jumps);
+  Faces faces{0.5 * (w[0] + w[1]), 0.5 * (s[0] + s[1]), 0.0};
+  for (const Point& point : state.cells[c].points) {
+    if (state.cells[c].parent != of_joint && point.max_opening > e.laws[c].elastic_opening())
+      faces.damaged += 0.5 * edge.length;
+  }
+  return faces;
+}
+
+SeismicEvent snap_of(const Equations& e, const State& state) {
+  const Motion& before = state.motion;
+  const Mesh& mesh = *e.scene.mesh;
+  SeismicEvent event;
+  event.time = before.begin;
+  event.duration = state.time - before.begin;
+  event.energy = state.energies.radiated - before.radiated;
+  event.fracture_energy = state.energies.fracture - before.fracture;
+  event.friction_energy = state.energies.friction - before.friction;
+  event.mode = failure_mode(event.friction_energy / (event.friction_energy + event.fracture_energy));
+  event.edges = 0;
+  for (std::size_t c = 0; c < state.cells.size(); ++c) {
+    const PathEdge& edge = e.path.edges()[c];
+    const Faces was = c < before.faces.size() ? before.faces[c] : Faces{}, is = faces_of(e, state, c);
+    const double opened = is.opening - was.opening, slid = is.slip - was.slip;
+    const PlaneStiffness& rock = e.bulk.stiffness(mesh.edges[at(edge.edge)].triangle[0]);
+    event.moment +=
+        moment_of_jump({rock.c12, rock.c66}, {-edge.normal.y, edge.normal.x}, edge.length, opened, slid);
+    const double torn = is.damaged - was.damaged;
+    if (torn <= 0.0) continue;
+    if (event.edges++ == 0) event.edge = edge.edge;
+    event.length += torn;
+    event.opening += torn * opened;
+    event.slip += torn * slid;
+    event.place += 0.5 * torn * (mesh.vertices[at(edge.vertex[0])] + mesh.vertices[at(edge.vertex[1])]);
+  }
+  if (event.length == 0.0) {  // faces that slid
+    event.place = mesh.vertices[at(e.scene.wings.front().start)];
+    return event;
+  }
+  event.opening /= event.length;
+  event.slip /= event.length;
+  event.place = 1.0 / event.length * event.place;
+  return event;
 }
 
 std::vector<Vec2> corners_of(const Equations& e, const State& state) {

@@ -61,6 +61,8 @@ struct Snap {
   double pressure = 0.0, length = 0.0;  ///< over theory, less 1: means of the growth after the snap
   double torn = 0.0, lost = 0.0;        ///< in the snap, by fracture, with waves: over G times its growth
   double mass = 0.0, energy = 0.0;      ///< largest defects of all steps
+  SeismicEvent event;
+  double volume = 0.0, from = 0.0, damaged = 0.0, radiated = 0.0;  ///< by the record [m2], [m], [m], [J/m]
 };
 
 inline Snap griffith(double step) {
@@ -77,7 +79,7 @@ inline Snap griffith(double step) {
     snap.mass = std::max(snap.mass, std::abs(row.mass_defect) / row.injected);
     snap.energy = std::max(snap.energy, row.energies.residual);
     if (!moved && moves) before = last;
-    if (moved && !moves) after = row;
+    if (moved && !moves) after = row, snap.event = stage.last_snap();
     if (after.time == 0.0 || moves || row.elastic_length < after.elastic_length + 0.02) continue;
     const double a = length_of(s, row.injected);
     pressure.add(row.step, row.well_pressure, critical(a));
@@ -85,6 +87,10 @@ inline Snap griffith(double step) {
   }
   snap.pressure = 0.01 * pressure.mean();
   snap.length = 0.01 * length.mean();
+  snap.volume = after.fracture_volume - before.fracture_volume;
+  snap.from = before.damaged_length;
+  snap.damaged = after.damaged_length - before.damaged_length;
+  snap.radiated = after.energies.radiated - before.energies.radiated;
   const double all = fracture_energy() * (after.elastic_length - before.elastic_length);
   snap.torn = (after.dissipated - before.dissipated) / all;
   snap.lost = snap.torn + (after.energies.radiated - before.energies.radiated) / all;
