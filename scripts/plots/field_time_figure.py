@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of a run in field time: pressure.png (pressure, rate, volumes, length) and fractures.png
-(opening and pressure along a straight fracture, frame by frame; on a map at the end of any other)."""
+(opening and pressure along a straight fracture, frame by frame; of any other on a map, where it holds most)."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator
 
 import look
 from run_data import Frame
@@ -52,11 +53,13 @@ def draw_history(run, path):
 
 
 def draw_fracture(run, figure_path):
-    """Profiles of a fracture along x; of any other its map at the end."""
+    """Profiles of a fracture along x; of any other its map where it holds most: at a shut-in as a rule."""
     frames = [(time, Frame(path)) for time, path in run.frames("fractures")]
     frames = [(time, frame) for time, frame in frames if "opening_m" in frame.cell_fields]
     if frames and np.ptp(frames[-1][1].points[:, 1]) > 0.0:
-        draw_map(run, *frames[-1], figure_path)
+        history = run.history
+        held = [np.interp(time, history["time_s"], history["fracture_volume_m2"]) for time, _ in frames]
+        draw_map(run, *frames[int(np.argmax(held))], figure_path)
     else:
         draw_profiles(run, frames, figure_path)
 
@@ -72,7 +75,8 @@ def draw_map(run, time, frame, figure_path):
                                         ("opening [mm]", "pressure [MPa]")):
         values = LineCollection(lines, array=frame.cell_fields[name] * scale, cmap="viridis", linewidths=2.5)
         axes.add_collection(values)
-        figure.colorbar(values, ax=axes, label=label, orientation="horizontal", pad=1.0 / height, aspect=30)
+        figure.colorbar(values, ax=axes, label=label, orientation="horizontal", pad=1.0 / height, aspect=30,
+                        ticks=MaxNLocator(5))
         axes.plot(0.0, 0.0, marker="o", markersize=4, color=look.ACCENT)
         axes.set_aspect("equal")
         axes.set_xlabel("x [m]")

@@ -62,7 +62,7 @@ double undisturbed_seconds(int calls, const Work& work) {
 }
 
 RunOutput output_of(const Case& scene, double triangles, const FrameBytes& bytes, double most_frames,
-                    double history) {
+                    double history, double more_frames = 0.0) {
   const auto wanted = [&](const char* name) {
     const auto& fields = scene.output.fields;
     return fields.empty() || std::find(fields.begin(), fields.end(), name) != fields.end();
@@ -72,7 +72,8 @@ RunOutput output_of(const Case& scene, double triangles, const FrameBytes& bytes
   if (wanted("velocity_m_s")) frame += bytes.velocity;
   if (wanted("stress_Pa")) frame += bytes.stress;
   const double frames =
-      1.0 + std::min(most_frames, std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9));
+      1.0 + more_frames +
+      std::min(most_frames, std::ceil(scene.run.end_time / scene.output.fields_every - 1e-9));
   return {(frame * triangles + frame_heads) * frames + history + other_files,
           static_cast<std::int64_t>(frames)};
 }
@@ -146,8 +147,13 @@ RunOutput output_of_run(const Case& scene, double triangles, const Steps& steps)
 }
 
 RunOutput output_of_field_time(const Case& scene, double triangles) {
+  const auto& pump = scene.fluid.pump;
+  const auto shut_ins = std::ranges::count_if(pump, [&](const Case::PumpStage& ending) {
+    const auto goes_on = [&](const Case::PumpStage& p) { return p.from <= ending.to && ending.to < p.to; };
+    return ending.to < scene.run.end_time && std::ranges::none_of(pump, goes_on);
+  });
   return output_of(scene, triangles, frame_field_time, rows_field_time,
-                   rows_field_time * history_row_field_time);
+                   rows_field_time * history_row_field_time, static_cast<double>(shut_ins));
 }
 
 void require_disk(const Case& scene, double triangles, const RunOutput& output, const std::string& folder) {

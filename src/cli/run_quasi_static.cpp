@@ -202,10 +202,13 @@ class FieldTimeRun final : public RunLoop {
   }
 
   void step() override {
-    if (stage_->time() >= memory_.next_frame) {
-      write_frame();
+    const double time = stage_->time();
+    const bool shut_in =
+        time > 0.0 && stage_->state().event == time && stage_->scene().pump.rate(time) == 0.0;
+    if (shut_in || time >= memory_.next_frame) write_frame();
+    if (time >= memory_.next_frame) {
       const double every = scene_.output.fields_every;
-      memory_.next_frame += every * std::ceil((stage_->time() - memory_.next_frame) / every + 1e-12);
+      memory_.next_frame += every * std::ceil((time - memory_.next_frame) / every + 1e-12);
     }
     const bool moved = stage_->state().motion.moves();
     if (!moved) before_ = row_;

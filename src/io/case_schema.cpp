@@ -363,7 +363,7 @@ std::vector<TableSpec> make_tables() {
       moment("epoch", slot<&C::seismic, &C::Seismic::epoch>(), "of simulated time zero, ISO 8601 in UTC"),
     }},
     {"output", {
-      number("fields_every", slot<&C::output, &C::Output::fields_every>(), duration, not_negative, Need::never, "simulated time between frames", "run.end_time / 20"),
+      number("fields_every", slot<&C::output, &C::Output::fields_every>(), duration, not_negative, Need::never, "simulated time between frames; in field time there is one more at every shut-in", "run.end_time / 20"),
       text("fields", slot<&C::output, &C::Output::fields>(), "names of the fields to write; none: the default set", "none"),
       number("history_every", slot<&C::output, &C::Output::history_every>(), duration, not_negative, Need::never, "simulated time between rows of history.csv", "run.end_time / 1000"),
       number("checkpoint_every", slot<&C::output, &C::Output::checkpoint_every>(), duration, not_negative, Need::never, "wall-clock time between checkpoints; 0: only on a signal"),
