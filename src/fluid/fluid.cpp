@@ -303,6 +303,8 @@ void Fluid::spread(State& state, const Spread& before) {
   const double lost = before.energy - measured_energy(state);
   const double work = 0.5 * state.time_step * (measured_power(state) - before.power);
   state.dissipation.viscous += std::max(0.0, lost - work);
+  // Closed faces overlap by what their penalty gives way: where they become part of the cavity it shrinks.
+  state.dissipation.inserted += std::max(0.0, work - lost);
   for (std::size_t c = 0; c < f.cavities.size(); ++c) {
     if (f.cavities[c].mass <= 0.0 || volume_[c] <= 0.0) continue;
     f.cavities[c].volume = volume_[c];

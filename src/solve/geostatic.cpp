@@ -180,7 +180,10 @@ void Simulation::settle() {
   }
   if (scene_.absorbing_boundary || loads_) bear_geostatic_loads(std::move(forces));
   tiles_.emplace(state_, physics());
+  if (!stressed_.empty()) break_overstressed();
   if (geostatic_slips_ > 0 || !scene_.cracks.empty() || !scene_.damage.cut.empty()) relax();
+  geostatic_slips_ += rough_insertions_;
+  rough_insertions_ = 0;
   stopwatch_ = {};
   if (fluid_ && scene_.flow) fluid_->flow(state_, {*scene_.flow, sparse_solver()});
   state_.dissipation = {};
@@ -290,6 +293,8 @@ double Simulation::imbalance() {
   for_each_block(mesh.triangle_count(), [&](Index begin, Index end, Index) {
     bulk_.corner_forces(state_, begin, end, forces.data() + 3 * begin);
   });
+  for (const DamagedTriangle& d : state_.damage.triangles)
+    std::ranges::copy(d.force, forces.begin() + 3 * d.triangle);
   double largest = 0.0;
   for (const Vec2 f : forces) largest = std::max(largest, norm(f));
   if (cohesive_) cohesive_->add_tractions(state_);

@@ -167,7 +167,8 @@ void Guards::look_at_breaks(const Simulation& s, std::vector<Finding>& found) {
   const double given = std::abs(d.inserted) + std::abs(d.path);
   if (given > given_warning * spent && given > least_energy_) {
     raise(found, Alarm::given_energy, false,
-          fmt::format("the method gave the rock {:.3g} J/m (elements inserted under load {:.3g}, a law "
+          fmt::format("the method gave the rock {:.3g} J/m (elements inserted under load or wetted closed "
+                      "{:.3g}, a law "
                       "without potential "
                       "{:.3g}) against {:.3g} J/m dissipated, {}: take shorter edges or a larger "
                       "cohesive.penalty",

@@ -69,6 +69,23 @@ void Simulation::prepare_insertion() {
   if (!scene_.damage.law) part_tips();
 }
 
+// Rock that stress and excavation alone bring beyond its strength gives way before the pump starts.
+void Simulation::break_overstressed() {
+  std::ranges::fill(stressed_, std::uint8_t{1});
+  std::ranges::fill(block_stressed_, char{1});
+  if (damage_) {
+    const std::size_t cut = state_.damage.triangles.size();
+    crack_stressed();
+    geostatic_slips_ += static_cast<Index>(state_.damage.triangles.size() - cut);
+  } else {
+    insert_stressed();
+    geostatic_slips_ += rough_insertions_;
+    rough_insertions_ = 0;
+  }
+  std::ranges::fill(stressed_, std::uint8_t{0});
+  std::ranges::fill(block_stressed_, char{0});
+}
+
 void Simulation::insert_joints() {
   const auto materials = static_cast<int>(scene_.joint_materials.size());
   for (int number = 1; number <= materials; ++number) {

@@ -198,6 +198,7 @@ class Simulation {
   void crack_stressed();
   /// @param material of a joint; 0: that of the rock round each
   void insert(const std::vector<Index>& edges, std::uint16_t material = 0);
+  void break_overstressed();
   void insert_joints();
   Energies potential_energies() const;
   /// ½ Σ m v_before · v [J/m]

@@ -159,7 +159,8 @@ struct Dissipation {
   double boundary = 0.0;  ///< radiated through an absorbing boundary
   double made = 0.0;      ///< not dissipated: given back by cohesive elements beyond what they held
   /// Given to the rock by springs that were inserted under load and broke before they had paid it back: all
-  /// of an element breaks when two of its points have, and the third's debt goes with it.
+  /// of an element breaks when two of its points have, and the third's debt goes with it. And to the fluid,
+  /// by closed faces that overlap where it comes to them.
   double inserted = 0.0;
   double path = 0.0;  ///< given to the rock by laws without a potential, see law.hpp; negative: taken
 };
