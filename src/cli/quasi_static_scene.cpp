@@ -379,6 +379,20 @@ std::vector<std::string> quasi_static_notes(const Case& scene, const QuasiStatic
                     "same fracture energy",
                     edge, 1e-6 * rock.tensile_strength, 1e-6 * strength));
   }
+  // What flow through half an edge of closed faces takes: nothing opens them before the well's own pressure
+  // does.
+  const double closed = std::max(stage.fluid.smallest_aperture, stage.closure.opening(across));
+  const double entry = mu * 0.5 * rate * 0.5 * edge / (closed * closed * closed);
+  if (!is_bored(scene) && scene.well.storage == 0.0 && scene.fluid.flow != "uniform" &&
+      entry > 10.0 * std::max(across, 0.0)) {
+    notes.push_back(
+        fmt::format("warning: the well stores nothing, and the first fluid has to enter a closed notch, "
+                    "{:.3g} um open: its "
+                    "pressure may begin at {:.3g} MPa, and fall within milliseconds; give the well its "
+                    "well.storage, or a "
+                    "larger fracture.residual_aperture",
+                    1e6 * closed, 1e-6 * (stage.pore_pressure + across + entry)));
+  }
   const double reynolds = scene.fluid.density * rate / stage.fluid.viscosity;
   if (reynolds > 2300.0 && scene.fluid.flow != "uniform")
     notes.push_back(fmt::format("note: flow near the well is turbulent (Reynolds number {:.2g} of a wing){}",

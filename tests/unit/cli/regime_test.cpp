@@ -12,6 +12,7 @@ namespace crackle_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // A coarse KGD fracture, K_m = 7.2 by its viscosity.
 constexpr const char* kgd = R"(
@@ -88,6 +89,16 @@ TEST_F(Regime, WellboreOrNotchToStartFrom) {
   };
   refused({"wellbore.diameter=5 m", "run.regime=quasi_static"}, "it has to end outside of the wellbore");
   refused({"run.regime=dynamic", "fluid.wets=tip"}, "fluid.wets = \"tip\" is of field time");
+}
+
+// 12 mu q/2 h/2 / w3 with w = 20 um / (1 + 9 x 9/30) = 5.4 um, over the total stress of 19 MPa.
+TEST_F(Regime, ClosedNotchOfAWellThatStoresNothing) {
+  const std::vector<std::string> closed{"fluid.viscosity=1e-3", "fracture.residual_aperture=20 um"};
+  EXPECT_THAT(said(closed),
+              HasSubstr("a closed notch, 5.41 um open: its pressure may begin at 1.92e+03 MPa"));
+  std::vector<std::string> storing = closed;
+  storing.emplace_back("well.storage=1e-9");
+  EXPECT_THAT(said(storing), Not(HasSubstr("closed notch")));
 }
 
 TEST_F(Regime, FlowByToughnessAndViscosity) {
