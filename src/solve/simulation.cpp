@@ -245,6 +245,12 @@ void Simulation::advance(double dt, Energies* account) {
     listen_to_slips();
     stopwatch_.lap(Stopwatch::events);
   }
+  if (fluid_ && fluid_->leaks()) {  // its cavity is no longer closed
+    throw NumericalError(
+        fmt::format("a fracture has reached the outer boundary at step {}, time {:.6g} s, and the "
+                    "fluid would leave the model there: end the run earlier or make the domain larger",
+                    state_.step, state_.time));
+  }
   if (account != nullptr) {
     *account = potential_energies();
     velocity_before_ = state_.velocity;
@@ -260,12 +266,6 @@ void Simulation::advance(double dt, Energies* account) {
   if (fluid_) {
     fluid_->advance(state_, dt);
     stopwatch_.lap(Stopwatch::fluid);
-    if (fluid_->leaks()) {
-      throw NumericalError(
-          fmt::format("a fracture has reached the outer boundary at step {}, time {:.6g} s, and the "
-                      "fluid would leave the model there: end the run earlier or make the domain larger",
-                      state_.step, state_.time));
-    }
   }
   if (account != nullptr) {
     // ½ Σ m v(n−½)·v(n+½): with the stored energies at n this is what the integrator conserves.
