@@ -159,6 +159,7 @@ class BenzeggaghKenane final : public CohesiveLaw {
   double y_geo_factor() const override { return 3.0; }
   bool conserves_energy() const override { return true; }
   double largest_stiffness(const CohesiveMaterial& m) const override { return m.penalty; }
+  double friction_penalty(const CohesiveMaterial& m) const override { return m.penalty; }
 
   void move(const CohesiveMaterial& m, double length, double opening, double slip,
             CohesivePoint& p) const override {

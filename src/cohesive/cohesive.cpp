@@ -203,7 +203,7 @@ bool Cohesive::unbond(State& state, Index element) const {
   if (intact) place_points(state, element);
   CohesiveHistory& h = c.histories[at(c.history_of[at(element)])];
   const CohesiveMaterial m = material(state, element);
-  const double stiffness = m.tangential_penalty * c.inverse_length[at(element)];
+  const double stiffness = law_->friction_penalty(m) * c.inverse_length[at(element)];
   bool gives = false;
   for (CohesivePoint& p : h.point) {
     const double shear = p.shear + p.friction;

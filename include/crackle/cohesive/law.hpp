@@ -91,6 +91,10 @@ class CohesiveLaw {
   virtual bool conserves_energy() const { return false; }
   /// Bound of the slope of the tractions over opening and slip, times edge length [Pa].
   virtual double largest_stiffness(const CohesiveMaterial& material) const;
+  /// Penalty [Pa] of the spring by which the faces of what is broken rub.
+  virtual double friction_penalty(const CohesiveMaterial& material) const {
+    return material.tangential_penalty;
+  }
 
   /// Moves a point to a new opening and slip [m]: its damage, tractions and stored energy.
   /// @param length of the edge in the reference state [m]
